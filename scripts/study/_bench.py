@@ -11,8 +11,8 @@ import numpy
 GRAVITY = 9.81  # [m/s^2]
 FINE = 5e-4     # step of the closed equation, at most [s]
 SECONDS = 30.0  # of a recording
-LAWS = ["none", "joint_coulomb", "joint_coulomb_asymmetric", "joint_presliding", "joint_quadratic_drag",
-        "joint_effort_friction", "joint_ripple", "effort_gain", "payload"]
+LAWS = ["none", "joint_coulomb", "joint_coulomb_asymmetric", "joint_presliding", "joint_lugre",
+        "joint_quadratic_drag", "joint_effort_friction", "joint_ripple", "effort_gain", "payload"]
 RUNS = ["run_1", "run_2", "run_1_again"]  # to fit, to judge, the repetition
 CASE = "model: model.yaml\ncalibration: calibration.yaml\nconvert:\n" + "".join(
     f"  - {{from: {name}.csv, columns: columns.yaml, to: {name}}}\n" for name in RUNS) + """train: [run_1]
@@ -73,6 +73,21 @@ def bristles(motion, distance):
     return out
 
 
+def lugre(motion, p):
+    """Friction over its size [1] along the motion: bristles with a Stribeck curve and a damping that falls with speed as
+    exp(-v^2)."""
+    z, out = 0.0, numpy.zeros_like(motion.q)
+    for i, way in enumerate(numpy.diff(motion.q, prepend=motion.q[0])):
+        speed = motion.v[i]
+        slow = math.exp(-(speed / p["stribeck_velocity"])**2)
+        level = 1.0 + (p["static_ratio"] - 1.0) * slow
+        if way != 0.0:
+            full = math.copysign(level, way)
+            z = full - (full - z) * math.exp(-abs(way) / p["distance"] / level)
+        out[i] = z + p["damping"] * slow * (speed - abs(speed) * z / level) / p["distance"]
+    return out
+
+
 class Bench:
     """Number `number` of a seed; what is hidden in it has a law of LAWS."""
 
@@ -107,11 +122,15 @@ class Bench:
         distance = log_uniform(draw, max(0.002, 3.0 * self.count()), 0.05)
         periods, phase = draw.randint(7, 30), draw.uniform(0.0, 2.0 * math.pi)
         gain = math.exp(draw.choice([-1.0, 1.0]) * min(0.5, dose))
+        ratio, share = draw.uniform(1.2, 2.0), log_uniform(draw, 0.1, 0.5)
+        stribeck = {"static_ratio": ratio, "stribeck_velocity": min(0.9, share * rms(motion.v)),
+                    "damping": log_uniform(draw, 0.002, 0.02)}
         return {
             "none": {},
             "joint_coulomb": {"torque": size},
             "joint_coulomb_asymmetric": {"forward": 1.3 * size, "backward": 0.6 * size},
             "joint_presliding": {"torque": size, "distance": distance},
+            "joint_lugre": {"torque": size, "distance": distance, **stribeck},
             "joint_quadratic_drag": {"drag": size / rms(motion.v**2)},
             "joint_effort_friction": {"share": min(0.5, dose)},
             "joint_ripple": {"periods_1": periods, "sine_1": 1.4 * size * math.sin(phase),
@@ -135,6 +154,8 @@ class Bench:
                                        least * dry_friction(draw, motion))
         if self.law == "joint_presliding":
             return known + p["torque"] * bristles(motion, p["distance"])
+        if self.law == "joint_lugre":
+            return known + p["torque"] * lugre(motion, p)
         if self.law == "joint_quadratic_drag":
             return known + p["drag"] * motion.v * abs(motion.v)
         if self.law == "joint_effort_friction":  # u - share |u| sign(v) = known

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Study of driven axes. Benches that share nothing with the simulator (scripts/study/_bench.py), over eight decades of
 inertia, ruled by friction or by inertia, with encoders of 12 to 20 bits and rows of 25 to 1000 Hz. Each hides one law of
-nine, nothing among them; discovery gets CSV files and a model. With --drives, the benches have a servo drive
+ten, nothing among them; discovery gets CSV files and a model. With --drives, the benches have a servo drive
 (scripts/study/_servo.py), and the results go to build/study/drives.json and studies/drives.md.
 
 The same command continues an interrupted study; what another version of the program has answered is asked again. Writes
@@ -21,8 +21,8 @@ from real import Case, gap_text, is_answer, is_rival
 
 HEAD = ["law", "cases", "named", "in a class", "median error of its size", "interval holds it", "more than it", "payload"]
 SIZES = {"joint_coulomb": "torque", "joint_coulomb_asymmetric": "forward", "joint_presliding": "torque",
-         "joint_quadratic_drag": "drag", "joint_effort_friction": "share", "effort_gain": "gain", "payload": "mass",
-         **_servo.SIZES}
+         "joint_lugre": "torque", "joint_quadratic_drag": "drag", "joint_effort_friction": "share", "effort_gain": "gain",
+         "payload": "mass", **_servo.SIZES}
 
 
 def kind(options):

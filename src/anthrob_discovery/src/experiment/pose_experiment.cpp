@@ -72,7 +72,10 @@ double PoseExperiment::missing_effort(const Simulation& sim, const Axis& axis,
   if (direction != 0.0) return beyond_zero(lacking.range.low, lacking.range.high);
   // Nothing tells how friction that bends before it slides was bent.
   const JointModel& joint = sim.model().skeleton->joints[static_cast<std::size_t>(axis.joint)];
-  const double bent = joint.friction.presliding_torque / joint.effort_gain;
+  double bent = 0.0;
+  for (const BristleModel& bristles : joint.friction.bristles) {
+    bent += bristles.torque * bristles.static_ratio / joint.effort_gain;
+  }
   return beyond_zero(lacking.range.low - bent, lacking.range.high + bent);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "anthrob_sim/effects/catalogue.h"
 #include "anthrob_sim/effects/placed_effects.h"
 #include "fit/phase.h"
 #include "hypotheses/trials.h"
@@ -52,12 +53,19 @@ bool contains(const std::string& wide, const std::string& narrow) {
          narrow[wide.size()] == '/';
 }
 
+/// Whether a law becomes that one, or one that becomes it, where a shape ends.
+bool is_limit_of(const std::string& id, const EffectInfo& law) {
+  if (law.limit == id) return true;
+  const Effect* next = law.limit.empty() ? nullptr : find_effect(law.limit);
+  return next && is_limit_of(id, next->info());
+}
+
 }  // namespace
 
 bool is_nested_in(const Candidate& part, const Candidate& whole) {
   const EffectInfo &a = part.effect->info(), &b = whole.effect->info();
   if (part.place != whole.place || a.seam != b.seam) return false;
-  return part.sizes().size() < whole.sizes().size() || a.id == b.limit;
+  return part.sizes().size() < whole.sizes().size() || is_limit_of(a.id, b);
 }
 
 double share_of_simpler(const Candidate& part, const Candidate& whole,

@@ -26,7 +26,10 @@ const std::vector<Separation>& separations() {
         "joint_coulomb_asymmetric"},
        "repeat one motion at three levels of co-contraction: dry joint friction stays the same, "
        "friction of tendons and of loaded joints grows; then do so at a second posture"},
-      {{"joint_presliding", "joint_coulomb", "joint_coulomb_asymmetric"},
+      {{"joint_lugre", "joint_presliding"},
+       "turn at constant speeds from the slowest that the drive can do upwards, each twice that of "
+       "the one before: friction that breaks away is largest at the slowest"},
+      {{"joint_presliding", "joint_lugre", "joint_coulomb", "joint_coulomb_asymmetric"},
        "move the joint to and fro by ever smaller strokes, down to a tenth of a degree or of a "
        "millimetre, slowly: what bends gives back, what only rubs does not"},
       {{"joint_quadratic_drag", "joint_viscous", "joint_coulomb"},

@@ -60,11 +60,11 @@ TEST(PoseExperiment, LeavesFrictionARangeWithoutDirections) {
   const Dataset recording = bench.record(1);
   const auto with = [&](const std::string& id, double torque) {
     EffectInstance effect{id, "axis", {{"torque", torque}}};
-    if (id == "joint_coulomb") effect.parameters["static_ratio"] = 1.0;
+    if (id != "joint_presliding") effect.parameters["static_ratio"] = 1.0;
     return lacking_in_poses(model, recording, {effect}).cwiseAbs().maxCoeff();
   };
   EXPECT_NEAR(lacking_in_poses(model, recording).cwiseAbs().maxCoeff(), 0.2, 1e-3);
-  for (const char* id : {"joint_coulomb", "joint_presliding"}) {
+  for (const char* id : {"joint_coulomb", "joint_presliding", "joint_lugre"}) {
     EXPECT_NEAR(with(id, 0.15), 0.05, 1e-3) << id;
     EXPECT_EQ(with(id, 0.25), 0.0) << id;
   }

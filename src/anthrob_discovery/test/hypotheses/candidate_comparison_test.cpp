@@ -57,6 +57,10 @@ TEST(ShareOfSimpler, FewerSizesOrEverywhereInsteadOfSomewhere) {
   const Candidate presliding = candidate("joint_presliding", "elbow", 1);
   EXPECT_EQ(share_of_simpler(coulomb, presliding, {}), 0.75);
   EXPECT_EQ(share_of_simpler(presliding, coulomb, {}), 1.0);
+  const Candidate lugre = candidate("joint_lugre", "elbow", 1);
+  EXPECT_EQ(share_of_simpler(presliding, lugre, {}), 0.75);
+  EXPECT_EQ(share_of_simpler(coulomb, lugre, {}), 0.75);
+  EXPECT_EQ(share_of_simpler(lugre, presliding, {}), 1.0);
   EXPECT_EQ(share_of_simpler(candidate("joint_coulomb", "shoulder", 1), asymmetric, {}), 1.0);
 }
 

@@ -50,15 +50,9 @@ ResistanceSolver::ResistanceSolver(const SkeletonModel& model, double step)
     if (model.joints[i].friction.is_dry()) {
       dry_.push_back({static_cast<int>(i), true, Vec3::Zero(), 0.0, 0.0, 0.0});
     }
-    const JointFrictionModel& friction = model.joints[i].friction;
-    if (friction.presliding_torque > 0.0) {
-      bristles_.push_back({static_cast<int>(i),
-                           model.joints[i].velocity_offset,
-                           {friction.presliding_torque, friction.presliding_distance, step},
-                           0.0,
-                           0.0,
-                           0.0,
-                           0.0});
+    for (const BristleModel& bristle : model.joints[i].friction.bristles) {
+      bristles_.push_back({static_cast<int>(i), model.joints[i].velocity_offset,
+                           Bristle(bristle, step), 0.0, 0.0, 0.0, 0.0});
     }
   }
   held_.resize(n, 0);
@@ -82,10 +76,8 @@ void ResistanceSolver::solve(const KinematicTree& tree, const std::vector<double
   find_stops(tree, q);
   falling_ = false;
   for (SlidingTendon* tendon : tendons) slide(*tendon, true);
-  for (BristleJoint& bristle : bristles_) {
-    bristle.state = inputs.bristles[bristle.joint];
-    bend(bristle, true);
-  }
+  begin_bending(inputs);
+  for (BristleJoint& bristle : bristles_) bend(bristle, true);
   for (iterations_ = 1; iterations_ <= kMaxIterations; ++iterations_) {
     assemble(tree, tendons);
     const bool stable = solve_linear(inputs);
@@ -107,6 +99,7 @@ void ResistanceSolver::follow(const KinematicTree& tree, const std::vector<doubl
   u_ = Eigen::Map<const Eigen::VectorXd>(tree.velocities().data(), u_.size());
   falling_ = false;
   for (SlidingTendon* tendon : tendons) slide(*tendon, true);
+  begin_bending(inputs);
   u_ = Eigen::Map<const Eigen::VectorXd>(velocity.data(), u_.size());
   for (SlidingTendon* tendon : tendons) slide(*tendon, false);
   if (inputs.shafts) {
@@ -123,7 +116,9 @@ ForceRange ResistanceSolver::resistance_at(const std::vector<double>& q, int joi
   const JointModel& model = model_.joints[joint];
   const JointFrictionModel& friction = model.friction;
   double force = -(friction.viscous + friction.quadratic * std::abs(sliding)) * sliding;
-  if (inputs.bristles) force -= friction.presliding_torque * inputs.bristles[joint];
+  for (std::size_t i = 0; i < bristles_.size(); ++i) {
+    if (bristles_[i].joint == joint) force -= inputs.bristles[i].friction;
+  }
   if (model.stop.enabled) {
     const double position = q[model.position_offset];
     const Stop above = stop_of(model, Vec3::UnitX(), position - model.stop.upper),
@@ -143,6 +138,14 @@ ForceRange ResistanceSolver::resistance_at(const std::vector<double>& q, int joi
       dry_friction(friction, sliding) + one_way_friction(friction, sliding) + proportional;
   force -= std::copysign(level, sliding);
   return {force, force};
+}
+
+double ResistanceSolver::bristle_energy(const BristleState* states) const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < bristles_.size(); ++i) {
+    sum += bristles_[i].law.energy(states[i].bend);
+  }
+  return sum;
 }
 
 void ResistanceSolver::start(const KinematicTree& tree, const Eigen::VectorXd& tau) {
@@ -262,6 +265,13 @@ void ResistanceSolver::slide(SlidingTendon& tendon, bool first) {
   }
 }
 
+void ResistanceSolver::begin_bending(const JointInputs& inputs) {
+  for (std::size_t i = 0; i < bristles_.size(); ++i) {
+    bristles_[i].state = inputs.bristles[i].bend;
+    bristles_[i].law.begin(u_[bristles_[i].dof]);
+  }
+}
+
 void ResistanceSolver::bend(BristleJoint& bristle, bool first) {
   const double speed = u_[bristle.dof];
   const FrictionLaw::Value friction = {bristle.law.friction(speed, bristle.state),
@@ -269,10 +279,11 @@ void ResistanceSolver::bend(BristleJoint& bristle, bool first) {
   double slope = friction.slope;
   if (!first) {
     const double foreseen = bristle.torque + bristle.slope * (speed - bristle.speed);
-    slope = trusted_slope(bristle.law.torque * bristle.state, speed, friction, foreseen,
-                          kForeseen * bristle.law.torque);
+    slope = trusted_slope(bristle.law.held(bristle.state), speed, friction, foreseen,
+                          kForeseen * bristle.law.torque());
     surprise_[bristle.dof] += friction.mu - foreseen;
   }
+  if (!falling_) slope = std::max(0.0, slope);
   bristle.torque = friction.mu;
   bristle.slope = slope;
   bristle.speed = speed;
@@ -342,6 +353,7 @@ void ResistanceSolver::leave_unstable_speed(const KinematicTree& tree,
     for (double& steepness : tendon->steepness) steepness = std::max(0.0, steepness);
     for (double& slope : tendon->slope) slope = std::max(0.0, slope);
   }
+  for (BristleJoint& bristle : bristles_) bristle.slope = std::max(0.0, bristle.slope);
   assemble(tree, tendons);
   solve_linear(inputs);
   next_ += (kLeap - 1.0) * (next_ - u_);
@@ -440,9 +452,9 @@ bool ResistanceSolver::revise_dry_friction() {
 
 void ResistanceSolver::commit(const std::vector<SlidingTendon*>& tendons,
                               const JointInputs& inputs) {
-  for (const BristleJoint& bristle : bristles_) {
-    double& state = inputs.bristles[bristle.joint];
-    state = bristle.law.bend(u_[bristle.dof], state);
+  for (std::size_t i = 0; i < bristles_.size(); ++i) {
+    const double z = bristles_[i].state, speed = u_[bristles_[i].dof];
+    inputs.bristles[i] = {bristles_[i].law.bend(speed, z), bristles_[i].law.friction(speed, z)};
   }
   for (const SlidingTendon* tendon : tendons) {
     for (std::size_t j = 0; j < tendon->contacts.size(); ++j) {

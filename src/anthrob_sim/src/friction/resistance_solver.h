@@ -28,9 +28,9 @@ class ResistanceSolver {
  public:
   /// What friction depends on beside motion, by joint; null: nothing of that kind.
   struct JointInputs {
-    const double* loads = nullptr;    ///< forces that joints carry [N]
-    const double* efforts = nullptr;  ///< that drive them [Nm, N]
-    double* bristles = nullptr;       ///< state of presliding friction, see friction/bristle.h
+    const double* loads = nullptr;                     ///< forces that joints carry [N]
+    const double* efforts = nullptr;                   ///< that drive them [Nm, N]
+    BristleState* bristles = nullptr;                  ///< one after the other, joint by joint
     const std::vector<DriveShaft*>* shafts = nullptr;  ///< of drives: get their torques
   };
 
@@ -56,6 +56,11 @@ class ResistanceSolver {
   ForceRange resistance_at(const std::vector<double>& q, int joint, double velocity, double sliding,
                            double rest, const JointInputs& inputs) const;
 
+  /// How many bristles all joints have.
+  std::size_t bristle_count() const { return bristles_.size(); }
+  /// The most that they can give back [J].
+  double bristle_energy(const BristleState* states) const;
+
   /// Velocity at the end of the step.
   const Eigen::VectorXd& velocity() const { return u_; }
   /// Generalised forces of joint friction and stops that belong to it, without those of drives.
@@ -74,11 +79,11 @@ class ResistanceSolver {
     double speed;         ///< to which `direction` belongs; 0 when it comes from rest [rad/s, m/s]
   };
 
-  /// A joint with presliding friction, and what the last sweep took for it.
+  /// Bristles of a joint, and what the last sweep took for them.
   struct BristleJoint {
     int joint, dof;
     Bristle law;
-    double state;
+    double state;                 ///< z at the beginning of the step
     double torque, slope, speed;  ///< [Nm], [Nms], [rad/s]
   };
 
@@ -92,6 +97,7 @@ class ResistanceSolver {
   };
 
   void start(const KinematicTree& tree, const Eigen::VectorXd& tau);
+  void begin_bending(const JointInputs& inputs);
   void bend(BristleJoint& bristle, bool first);
   void find_stops(const KinematicTree& tree, const std::vector<double>& q);
   Stop stop_of(const JointModel& joint, const Vec3& direction, double depth) const;

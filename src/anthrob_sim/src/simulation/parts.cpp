@@ -68,10 +68,7 @@ Simulation::Parts::Parts(std::shared_ptr<const RobotModel> model)
 void Simulation::Parts::reserve_effects() {
   const SkeletonModel& skeleton = *model_->skeleton;
   if (joint_loads_.wanted()) loads_offset_ = store_.reserve(skeleton.joints.size());
-  for (const JointModel& joint : skeleton.joints) {
-    has_bristles_ = has_bristles_ || joint.friction.presliding_torque > 0.0;
-  }
-  if (has_bristles_) bristles_offset_ = store_.reserve(skeleton.joints.size());
+  bristles_offset_ = store_.reserve(resistance_.bristle_count() * state_size_of<BristleState>());
   if (!model_->joint_torques.empty()) joint_torque_.setZero(skeleton.velocity_count);
   for (const auto& effect : model_->power_effects) {
     power_offsets_.push_back(store_.reserve(effect->state_size()));
@@ -80,9 +77,7 @@ void Simulation::Parts::reserve_effects() {
 
 void Simulation::Parts::reset_effects() {
   if (joint_loads_.wanted()) joint_loads_.reset(store_.at(loads_offset_).data());
-  if (has_bristles_) {
-    std::fill_n(store_.at(bristles_offset_).data(), model_->skeleton->joints.size(), 0.0);
-  }
+  std::fill_n(bristles(), resistance_.bristle_count(), BristleState{0.0, 0.0});
   for (std::size_t i = 0; i < model_->power_effects.size(); ++i) {
     model_->power_effects[i]->reset(store_.at(power_offsets_[i]));
   }
@@ -122,21 +117,9 @@ ResistanceSolver::JointInputs Simulation::Parts::joint_inputs() const {
   ResistanceSolver::JointInputs inputs;
   if (joint_loads_.wanted()) inputs.loads = store_.at(loads_offset_).data();
   inputs.efforts = acting_.data();
-  if (has_bristles_) inputs.bristles = store_.at(bristles_offset_).data();
+  inputs.bristles = bristles();
   if (!shafts_.empty()) inputs.shafts = &shafts_;
   return inputs;
-}
-
-double Simulation::Parts::bristle_energy() const {
-  double sum = 0.0;
-  const auto& joints = model_->skeleton->joints;
-  for (std::size_t i = 0; has_bristles_ && i < joints.size(); ++i) {
-    const JointFrictionModel& friction = joints[i].friction;
-    if (friction.presliding_torque == 0.0) continue;
-    const Bristle law{friction.presliding_torque, friction.presliding_distance, model_->step};
-    sum += law.energy(store_.at(bristles_offset_)[i]);
-  }
-  return sum;
 }
 
 void Simulation::Parts::step_once() {

@@ -29,7 +29,7 @@ class Simulation::Parts {
   }
   /// Simulation::lacking_effort()
   LackingEffort lacking_effort(int joint, double rest) const;
-  double bristle_energy() const;
+  double bristle_energy() const { return resistance_.bristle_energy(bristles()); }
   const double* read_positions() const {
     return readings_.empty() ? q_.data() : readings_.positions();
   }
@@ -41,6 +41,7 @@ class Simulation::Parts {
   void reset_effects();
   void add_joint_torques();
   ResistanceSolver::JointInputs joint_inputs() const;
+  BristleState* bristles() const { return &store_.at(bristles_offset_).as<BristleState>(); }
   void head_for_posture();
   /// Efforts that the joints lack to go on with `heading_`, without friction and stops.
   void find_lacking_efforts();
@@ -89,7 +90,6 @@ class Simulation::Parts {
   Eigen::VectorXd joint_torque_;  ///< of joint_torques
   std::vector<PowerLine> lines_;  ///< scratch: one a muscle
   std::size_t loads_offset_ = 0;
-  bool has_bristles_ = false;
   std::size_t bristles_offset_ = 0;
   std::vector<std::size_t> power_offsets_;
   std::size_t dissipation_offset_ = 0;

@@ -137,6 +137,12 @@ TEST(JointEffects, EnergyIsAccountedFor) {
       {{"cable_drag", "axis", {{"stiffness", 300.0}, {"rest", 0.05}}}},
       {{"joint_quadratic_drag", "axis", {{"drag", 400.0}}}},
       {{"joint_presliding", "axis", {{"torque", 20.0}, {"distance", 0.002}}}},
+      {{"joint_lugre",
+        "axis",
+        {{"torque", 20.0},
+         {"distance", 0.002},
+         {"static_ratio", 1.5},
+         {"stribeck_velocity", 0.02}}}},
       {{"joint_effort_friction", "axis", {{"share", 0.3}}}},
       {{"joint_ripple", "axis", {{"sine_1", 10.0}, {"cosine_2", 8.0}}}},
   };

@@ -137,6 +137,69 @@ TEST(JointPresliding, BendsAsDahlSaysAndThenSlides) {
   EXPECT_NEAR(bench.speed(effect, 1.5, 0.2), expected, 0.05 * expected);
 }
 
+TEST(JointLugre, WithoutStribeckAndDampingIsDahls) {
+  const JointBench bench;
+  const double torque = 0.5, distance = 0.02;
+  const auto course = [&](const EffectInstance& effect) {
+    Simulation sim(bench.with(effect));
+    std::vector<double> positions;
+    for (int i = 0; i < 3000; ++i) {
+      sim.apply_effort(0, 1.4 * torque * std::sin(0.004 * i));
+      sim.step();
+      positions.push_back(sim.configuration()[0]);
+    }
+    return positions;
+  };
+  const std::vector<double> dahl =
+      course({"joint_presliding", "axis", {{"torque", torque}, {"distance", distance}}});
+  EXPECT_EQ(
+      course(
+          {"joint_lugre", "axis", {{"torque", torque}, {"distance", distance}, {"damping", 0.0}}}),
+      dahl);
+  EXPECT_GT(dahl[700], distance);
+}
+
+TEST(JointLugre, BreaksAwayAndThenSlidesAgainstLess) {
+  const JointBench bench;
+  const double torque = 0.5, ratio = 1.6;
+  const EffectInstance effect = {"joint_lugre",
+                                 "axis",
+                                 {{"torque", torque},
+                                  {"distance", 0.002},
+                                  {"static_ratio", ratio},
+                                  {"stribeck_velocity", 0.1}}};
+  const double held = 0.95 * ratio * torque;
+  for (const double side : {1.0, -1.0}) {
+    // What the bend lets it do slowly, and no more.
+    Simulation sim(bench.with(effect));
+    for (int i = 1; i <= 4000; ++i) {
+      sim.apply_effort(0, side * held * i / 4000.0);
+      sim.step();
+    }
+    EXPECT_NEAR(sim.configuration()[0], -side * ratio * 0.002 * std::log1p(-0.95), 1e-3) << side;
+    sim.apply_effort(0, side * 1.1 * ratio * torque);
+    sim.step(300);
+    // Once it slides, an effort that could not move it keeps it going.
+    sim.apply_effort(0, side * held);
+    const double before = sim.tree().velocities()[0];
+    sim.step(100);
+    EXPECT_NEAR(sim.tree().velocities()[0] - before, side * (held - torque) / kInertia * 0.1,
+                1e-3 * (held - torque) / kInertia)
+        << side;
+  }
+}
+
+TEST(JointLugre, ComesToRestAndStays) {
+  const JointBench bench;
+  Simulation sim(bench.with({"joint_lugre", "axis", {{"torque", 0.5}}}));
+  sim.apply_effort(0, 2.0);
+  sim.step(200);
+  EXPECT_GT(sim.tree().velocities()[0], 10.0);
+  sim.apply_effort(0, 0.0);
+  sim.step(5000);
+  EXPECT_NEAR(sim.tree().velocities()[0], 0.0, 1e-6);
+}
+
 TEST(JointPresliding, OfNoDistanceIsDryFriction) {
   const JointBench bench;
   const double torque = 0.5;

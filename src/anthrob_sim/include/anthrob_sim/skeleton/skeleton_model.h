@@ -10,6 +10,15 @@ namespace anthrob {
 
 enum class JointType { kBall, kHinge, kPrismatic };
 
+/// Friction of a hinge or prismatic joint that bends before it slides: see friction/bristle.h.
+struct BristleModel {
+  double torque = 0.0;              ///< while sliding fast [Nm] or [N], >= 0
+  double distance = 0.01;           ///< in which 63 % of it are back [rad] or [m], > 0
+  double static_ratio = 1.0;        ///< friction at rest over that, >= 1
+  double stribeck_velocity = 0.05;  ///< [rad/s] or [m/s], > 0
+  double damping = 0.0;             ///< of the bristles over their stiffness [s], >= 0
+};
+
 /// Stribeck curve (3.6); torques for rotating joints, forces for prismatic ones.
 struct JointFrictionModel {
   double static_torque = 0.0;       ///< [Nm] or [N]
@@ -22,9 +31,8 @@ struct JointFrictionModel {
   /// Dry friction per force that the joint carries [m]; of a prismatic joint per force across its
   /// axis [1].
   double load_radius = 0.0;
-  double effort_share = 0.0;         ///< dry friction per effort of a driven joint [1]
-  double presliding_torque = 0.0;    ///< of friction that bends before it slides (Dahl) [Nm] or [N]
-  double presliding_distance = 0.0;  ///< in which 63 % of it are back [rad] or [m]
+  double effort_share = 0.0;           ///< dry friction per effort of a driven joint [1]
+  std::vector<BristleModel> bristles;  ///< that add up; not for balls
 
   bool is_dry() const {
     return static_torque > 0.0 || kinetic_torque > 0.0 || forward > 0.0 || backward > 0.0 ||

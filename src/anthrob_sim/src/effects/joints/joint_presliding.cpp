@@ -41,8 +41,10 @@ class JointPresliding final : public JointEffect {
  protected:
   bool fits(const JointModel& joint) const override { return joint.type != JointType::kBall; }
   void change(const EffectSetting& setting, ModelDraft&, JointModel& joint) const override {
-    joint.friction.presliding_torque = setting["torque"];
-    joint.friction.presliding_distance = setting["distance"];
+    BristleModel bristles;
+    bristles.torque = setting["torque"];
+    bristles.distance = setting["distance"];
+    joint.friction.bristles.push_back(bristles);
   }
 };
 
