@@ -56,15 +56,9 @@ bool Convergence::converge(Fitted& fitted, double rival, double level) const {
   return true;
 }
 
-Fitted Convergence::rough(const Variant& variant, std::vector<Unknown> unknowns,
-                          Curvatures curvatures) const {
-  Fitted fitted = fit_.start(variant, std::move(unknowns), std::move(curvatures));
-  fit_.improve(fitted, options().rough);
-  return fitted;
-}
-
 Fitted Convergence::converged(const Variant& variant, std::vector<Unknown> unknowns) const {
-  Fitted fitted = rough(variant, std::move(unknowns));
+  Fitted fitted = fit_.start(variant, std::move(unknowns));
+  fit_.improve(fitted, options().rough);
   converge(fitted);
   return fitted;
 }
@@ -122,15 +116,21 @@ bool Convergence::begin_anew(Fitted& fitted) const {
   return true;
 }
 
-/// Nothing if the effects cannot be simulated with the given parameters.
+/// With the sensitivities of the fit, which are good enough for rough steps; with those at the
+/// given parameters where no step gains anything by them. Nothing if the effects cannot be
+/// simulated with the given parameters.
 std::optional<Fitted> Convergence::roughly_from_given(const Fitted& fitted) const {
   Variant given = fitted.variant;
   given.nuisances = evaluator_.initial_nuisances();
-  try {
-    return rough(given, fitted.unknowns, fitted.curvatures);
-  } catch (const NotSimulated&) {
-    return std::nullopt;
-  }
+  Fitted anew = fitted;
+  if (!fit_.move(anew, given)) return std::nullopt;
+  const double before = anew.cost;
+  fit_.improve(anew, options().rough);
+  if (anew.cost < before) return anew;
+  anew = fit_.start(given, fitted.unknowns);
+  anew.curvatures = fitted.curvatures;
+  fit_.improve(anew, options().rough);
+  return anew;
 }
 
 /// Last iterations: near the minimum, sensitivities of the coarse step no longer reduce the cost,

@@ -44,8 +44,6 @@ class Convergence {
   /// @return whether the cost came below a level, and further rounds might bring it to the rival's
   bool converge(Fitted& fitted, double rival = HUGE_VAL, double level = HUGE_VAL) const;
   bool clearly_misses(const Fitted& fitted) const;
-  Fitted rough(const Variant& variant, std::vector<Unknown> unknowns,
-               Curvatures curvatures = {}) const;
   std::optional<Fitted> roughly_from_given(const Fitted& fitted) const;
   /// @return whether that was better
   bool begin_anew(Fitted& fitted) const;

@@ -221,10 +221,8 @@ void ModelFit::refresh_jacobian(Fitted& fitted, Slopes slopes,
   steps.take_slopes(changes, fitted);
 }
 
-Fitted ModelFit::start(const Variant& variant, std::vector<Unknown> unknowns,
-                       Curvatures curvatures) const {
+Fitted ModelFit::start(const Variant& variant, std::vector<Unknown> unknowns) const {
   Fitted fitted;
-  fitted.curvatures = std::move(curvatures);
   fitted.variant = variant;
   fitted.unknowns = std::move(unknowns);
   fitted.residual = residual(variant);

@@ -83,10 +83,8 @@ class ModelFit {
         coarse_(coarse) {}
 
   /// Starts from a variant and its unknowns, and simulates all sensitivities.
-  /// @param curvatures as other fits of these ordinary parameters have found them
   /// @throws NotSimulated
-  Fitted start(const Variant& variant, std::vector<Unknown> unknowns,
-               Curvatures curvatures = {}) const;
+  Fitted start(const Variant& variant, std::vector<Unknown> unknowns) const;
   /// Iterates until nothing is gained any more.
   void improve(Fitted& fitted, int iterations) const;
   /// @param enough stops at a smaller relative reduction of the cost
