@@ -37,7 +37,8 @@ class MadeExperiment final : public Experiment {
   /// As of a file with few digits.
   void set_step_of_digits(double step) { channels_.front().digits = step; }
 
-  void compare(const std::shared_ptr<const RobotModel>& model, Starts&, float* out) const override {
+  void compare(const std::shared_ptr<const RobotModel>& model, const Starts&,
+               float* out) const override {
     const double difference = (model->step == kCoarse ? coarse_ : difference_)(*model);
     for (std::size_t b = 0; b < noise_.size(); ++b) {
       out[b] = static_cast<float>(difference + noise_[b]);

@@ -36,7 +36,8 @@ class OffsetForces final : public Experiment {
     for (std::size_t i = 0; i < present_.size(); ++i) noise_.push_back(random.normal(i));
   }
 
-  void compare(const std::shared_ptr<const RobotModel>& model, Starts&, float* out) const override {
+  void compare(const std::shared_ptr<const RobotModel>& model, const Starts&,
+               float* out) const override {
     std::vector<ecu::Measurement> read(model->muscles.size());
     std::vector<double> positions(model->skeleton->position_count),
         velocities(model->skeleton->velocity_count);

@@ -23,7 +23,7 @@ class Swing final : public Experiment {
     channels_.push_back({"hinge", "position", "rad", 0, with_muscle ? kBins : 0, kBins, 0.0});
     present_.assign(kBins * channels_.size(), 1);
   }
-  void compare(const std::shared_ptr<const RobotModel>&, Starts&, float*) const override {}
+  void compare(const std::shared_ptr<const RobotModel>&, const Starts&, float*) const override {}
 };
 
 inline double speed_at(std::size_t bin) {

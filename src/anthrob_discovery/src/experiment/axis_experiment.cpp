@@ -140,7 +140,7 @@ class AxisExperiment::Walk {
   std::size_t steps_ = 0;
 };
 
-void AxisExperiment::compare(const std::shared_ptr<const RobotModel>& model, Starts&,
+void AxisExperiment::compare(const std::shared_ptr<const RobotModel>& model, const Starts&,
                              float* out) const {
   Walk walk(model, axes_);
   const auto split = static_cast<std::size_t>(std::lround(step_ / model->step));

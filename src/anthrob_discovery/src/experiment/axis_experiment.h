@@ -25,7 +25,7 @@ class AxisExperiment final : public Experiment {
   AxisExperiment(const RobotModel& model, const Dataset& recording, const AxisOptions& options,
                  const ReplayScope& scope);
 
-  void compare(const std::shared_ptr<const RobotModel>& model, Starts& starts,
+  void compare(const std::shared_ptr<const RobotModel>& model, const Starts& starts,
                float* out) const override;
 
  private:

@@ -231,12 +231,17 @@ void ChainExperiment::finish_row(const Sampling& sampling, std::size_t row, doub
   }
 }
 
-void ChainExperiment::compare(const std::shared_ptr<const RobotModel>& model, Starts& starts,
+void ChainExperiment::settle(const std::shared_ptr<const RobotModel>& model, Starts& starts) const {
+  const auto [start, is_new] = starts.try_emplace(input_.start_inputs());
+  if (!is_new) return;
+  Simulation sim(model);
+  start->second = input_.settle(sim);
+}
+
+void ChainExperiment::compare(const std::shared_ptr<const RobotModel>& model, const Starts& starts,
                               float* out) const {
   Simulation sim(model);
-  const auto [start, is_new] = starts.try_emplace(input_.start_inputs());
-  if (is_new) start->second = input_.settle(sim);
-  input_.start(sim, start->second);
+  input_.start(sim, starts.at(input_.start_inputs()));
   Replay::Run run(input_, sim);
   for (const Sampling& sampling : samplings_) {
     for (const Reader& reader : sampling.readers) {

@@ -16,7 +16,8 @@ class ChainExperiment final : public Experiment {
   ChainExperiment(const RobotModel& model, const Dataset& recording,
                   const ExperimentOptions& options, const ReplayScope& scope);
 
-  void compare(const std::shared_ptr<const RobotModel>& model, Starts& starts,
+  void settle(const std::shared_ptr<const RobotModel>& model, Starts& starts) const override;
+  void compare(const std::shared_ptr<const RobotModel>& model, const Starts& starts,
                float* out) const override;
 
  private:

@@ -97,13 +97,21 @@ Differences Evaluator::simulate(
   try {
     std::map<std::map<std::string, double>, RecordedRobot> robots;
     Differences differences = Differences::Zero(static_cast<Eigen::Index>(total_size(experiments)));
+    std::vector<const RecordedRobot*> robot_of;
+    std::vector<float*> out;
     std::size_t offset = 0;
     for (const auto& experiment : experiments) {
       RecordedRobot& robot = robots[experiment->known_numbers()];
       if (!robot.model) robot.model = build(variant, experiment->known_numbers());
-      experiment->compare(robot.model, robot.starts, differences.data() + offset);
+      experiment->settle(robot.model, robot.starts);
+      robot_of.push_back(&robot);
+      out.push_back(differences.data() + offset);
       offset += experiment->size();
     }
+    // Fits take one step after the other.
+    side_by_side(experiments.size(), [&](std::size_t i) {
+      experiments[i]->compare(robot_of[i]->model, robot_of[i]->starts, out[i]);
+    });
     if (differences.allFinite()) return differences;
   } catch (const NumericalFailure&) {
   } catch (const BadInput&) {

@@ -69,10 +69,13 @@ class Experiment {
   /// Whether its bins are poses, whose times only put them in order (ordered_poses()).
   bool of_poses() const { return of_poses_; }
 
+  /// Adds the settled state that compare() begins with, if there is one and it is not there yet.
+  /// @param model with known_numbers()   @param starts of this model   @throws NumericalFailure
+  virtual void settle(const std::shared_ptr<const RobotModel>&, Starts&) const {}
   /// Simulated minus measured, channel after channel; 0 where nothing was measured.
-  /// @param model with known_numbers()   @param starts of this model   @param out size()   @throws
+  /// @param model, starts as settle() got and left them   @param out size()   @throws
   /// NumericalFailure
-  virtual void compare(const std::shared_ptr<const RobotModel>& model, Starts& starts,
+  virtual void compare(const std::shared_ptr<const RobotModel>& model, const Starts& starts,
                        float* out) const = 0;
 
  protected:

@@ -79,7 +79,7 @@ double PoseExperiment::missing_effort(const Simulation& sim, const Axis& axis,
   return beyond_zero(lacking.range.low - bent, lacking.range.high + bent);
 }
 
-void PoseExperiment::compare(const std::shared_ptr<const RobotModel>& model, Starts&,
+void PoseExperiment::compare(const std::shared_ptr<const RobotModel>& model, const Starts&,
                              float* out) const {
   Simulation sim(model);
   for (std::size_t pose = 0; pose < poses_; ++pose) {

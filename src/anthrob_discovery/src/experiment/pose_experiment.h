@@ -20,7 +20,7 @@ class PoseExperiment final : public Experiment {
  public:
   PoseExperiment(const RobotModel& model, const Dataset& recording, const PoseOptions& options);
 
-  void compare(const std::shared_ptr<const RobotModel>& model, Starts& starts,
+  void compare(const std::shared_ptr<const RobotModel>& model, const Starts& starts,
                float* out) const override;
 
  private:

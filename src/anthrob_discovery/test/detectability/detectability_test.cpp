@@ -32,7 +32,8 @@ class Tilted final : public Experiment {
     duration_ = bin_ * static_cast<double>(bins);
   }
 
-  void compare(const std::shared_ptr<const RobotModel>& model, Starts&, float* out) const override {
+  void compare(const std::shared_ptr<const RobotModel>& model, const Starts&,
+               float* out) const override {
     const double t = std::asin(model->gravity.y() / model->gravity.norm()) / kDose;
     const auto shoulder = static_cast<std::size_t>(model->skeleton->find_joint("shoulder"));
     const double d = (model->skeleton->joints[shoulder].friction.viscous - kDamping) / 0.1;

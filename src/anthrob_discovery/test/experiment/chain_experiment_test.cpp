@@ -20,6 +20,7 @@ TEST(ChainExperiment, DifferencesAreNoiseOnlyWhereTheModelIsRight) {
   const ChainExperiment experiment(*arm.plain, data, {}, {});
   std::vector<float> differences(experiment.size());
   Starts starts;
+  experiment.settle(arm.plain, starts);
   experiment.compare(arm.plain, starts, differences.data());
   const MadeRecording made;
   for (const Channel& channel : experiment.channels()) {
@@ -49,8 +50,11 @@ TEST(ChainExperiment, RecordingsThatStartAlikeSettleOnce) {
       second(*arm.plain, arm.record({}, 1, 2), {}, {});
   std::vector<float> alone(second.size()), after(second.size()), ignored(first.size());
   Starts none, starts;
+  second.settle(model, none);
   second.compare(model, none, alone.data());
+  first.settle(model, starts);
   first.compare(model, starts, ignored.data());
+  second.settle(model, starts);
   second.compare(model, starts, after.data());
   EXPECT_EQ(starts.size(), 1u);
   EXPECT_EQ(after, alone);  // to the last bit
@@ -68,8 +72,11 @@ TEST(ChainExperiment, RecordingsThatSettleAlikeMayStandElsewhere) {
       second(*arm.plain, elsewhere, {}, {});
   std::vector<float> alone(second.size()), after(second.size()), ignored(first.size());
   Starts none, starts;
+  second.settle(arm.plain, none);
   second.compare(arm.plain, none, alone.data());
+  first.settle(arm.plain, starts);
   first.compare(arm.plain, starts, ignored.data());
+  second.settle(arm.plain, starts);
   second.compare(arm.plain, starts, after.data());
   EXPECT_EQ(starts.size(), 1u);
   EXPECT_EQ(after, alone);

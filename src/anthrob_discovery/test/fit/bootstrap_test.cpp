@@ -70,7 +70,7 @@ class Glimpse final : public Experiment {
     channels_ = {{"hinge", "position", "rad", 0, 0, bins, 0.0}};
     present_.assign(bins, 1);
   }
-  void compare(const std::shared_ptr<const RobotModel>&, Starts&, float*) const override {}
+  void compare(const std::shared_ptr<const RobotModel>&, const Starts&, float*) const override {}
 };
 
 TEST(Bootstrap, OneBlockOfTimeIsAsUncertainAsItsNoise) {
@@ -157,7 +157,7 @@ class LongSwing final : public Experiment {
     channels_ = {{"hinge", "position", "rad", 0, 0, 334, 0.0}};
     present_.assign(334, 1);
   }
-  void compare(const std::shared_ptr<const RobotModel>&, Starts&, float*) const override {}
+  void compare(const std::shared_ptr<const RobotModel>&, const Starts&, float*) const override {}
 };
 
 TEST(Judge, LastBinBelongsToTheLastBlock) {

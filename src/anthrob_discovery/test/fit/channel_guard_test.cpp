@@ -30,7 +30,8 @@ class TwoChannels final : public Experiment {
     duration_ = bin_ * static_cast<double>(kGuardedBins);
   }
 
-  void compare(const std::shared_ptr<const RobotModel>& model, Starts&, float* out) const override {
+  void compare(const std::shared_ptr<const RobotModel>& model, const Starts&,
+               float* out) const override {
     const double x = damping(*model, "elbow"), y = damping(*model, "shoulder");
     for (std::size_t b = 0; b < kGuardedBins; ++b) {
       const double wrong = b < kGuardedBins / 2 ? 0.0 : wish_.y * (y - 0.5);

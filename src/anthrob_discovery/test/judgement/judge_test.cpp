@@ -67,7 +67,7 @@ class Effort final : public Experiment {
     bin_ = 0.025;
     duration_ = 20.0;
   }
-  void compare(const std::shared_ptr<const RobotModel>&, Starts&, float*) const override {}
+  void compare(const std::shared_ptr<const RobotModel>&, const Starts&, float*) const override {}
 };
 
 TEST(OneSidedGaps, AreCertainOnOneSideAndNotThereOnTheOther) {

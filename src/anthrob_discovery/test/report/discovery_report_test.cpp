@@ -461,7 +461,7 @@ class Turn final : public Experiment {
     present_.assign(3, 1);
     bin_ = duration_ = 0.02;
   }
-  void compare(const std::shared_ptr<const RobotModel>&, Starts&, float*) const override {}
+  void compare(const std::shared_ptr<const RobotModel>&, const Starts&, float*) const override {}
 };
 
 TEST(Examples, OfABallJointShowTheComponentThatChangesMost) {
