@@ -163,7 +163,7 @@ void ResultFile<Scalar>::remove() {
   unlink(file_.c_str());
 }
 
-template class ResultFile<float>;
+template class ResultFile<std::uint8_t>;
 template class ResultFile<double>;
 
 }  // namespace resume

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kContext = 7;
 
-using File = ResultFile<float>;
+using File = ResultFile<double>;
 
 class ResultFileTest : public testing::Test {
  protected:
@@ -32,8 +32,8 @@ class ResultFileTest : public testing::Test {
 
   const std::string file_ =
       (fs::temp_directory_path() / ("anthrob_journal_" + std::to_string(getpid()))).string();
-  const Eigen::VectorXf first_ = Eigen::VectorXf::LinSpaced(100, -1.0f, 1.0f);
-  const Eigen::VectorXf second_ = Eigen::VectorXf::Constant(50, 1e-30f);
+  const Eigen::VectorXd first_ = Eigen::VectorXd::LinSpaced(100, -1.0, 1.0);
+  const Eigen::VectorXd second_ = Eigen::VectorXd::Constant(50, 1e-30);
 };
 
 TEST_F(ResultFileTest, KnowsWhatWasWrittenBitForBit) {

@@ -9,6 +9,7 @@
 #include "anthrob_recording/resolution.h"
 #include "experiment/cut_off_noise.h"
 #include "experiment/noise_floor.h"
+#include "experiment/packed_differences.h"
 
 namespace anthrob {
 namespace discovery {
@@ -53,6 +54,7 @@ ReplayMode mode_of(const RobotModel& model, const Dataset& recording) {
 ChainExperiment::ChainExperiment(const RobotModel& model, const Dataset& recording,
                                  const ExperimentOptions& options, const ReplayScope& scope)
     : cut_off_(options.cut_off),
+      rounding_(options.rounding),
       mode_(scope.mode.value_or(mode_of(model, recording))),
       input_(std::make_shared<RobotModel>(model), recording, mode_) {
   name_ = recording.folder;
@@ -152,6 +154,7 @@ void ChainExperiment::add(Reader reader, const Series& series, const Channel& ch
   channels_.back().resolution = resolution_of(series.values);
   channels_.back().rows = sampling.rows_per_bin();
   channels_.back().digits = step_of_digits(series.values);
+  channels_.back().rounding = rounding_of(series.values, channels_.back().rows, rounding_);
   if (reader.kind == Reader::kForce) {
     reader.noise = cut_off_noise(series, channels_.back().resolution, cut_off_);
   }
@@ -171,6 +174,9 @@ void ChainExperiment::add_ball(int joint, const std::string& name, const Dataset
   for (int component = 0; component < 3; ++component) {
     channels_.push_back({name, "orientation", "rad", component, present_.size(), bins_});
     channels_.back().rows = sampling.rows_per_bin();
+    // Of a small rotation's quaternion, the vector is half of the rotation vector.
+    channels_.back().rounding =
+        rounding_of(turns.number[1 + component].values, channels_.back().rows, 2.0 * rounding_);
     for (const double share : sampling.per_bin) present_.push_back(share > 0.0);
   }
   sampling.readers.push_back(std::move(reader));

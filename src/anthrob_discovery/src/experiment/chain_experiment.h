@@ -54,6 +54,7 @@ class ChainExperiment final : public Experiment {
   static void read(const Simulation& sim, const Sampling& sampling, std::vector<double>& values);
 
   CutOffOptions cut_off_;
+  double rounding_;
   ReplayMode mode_;
   Replay input_;
   std::size_t bins_;

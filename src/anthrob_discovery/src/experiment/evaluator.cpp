@@ -9,6 +9,7 @@
 #include "anthrob_sim/core/errors.h"
 #include "anthrob_sim/effects/catalogue.h"
 #include "anthrob_sim/model/recorded_model.h"
+#include "experiment/packed_differences.h"
 
 namespace anthrob {
 namespace discovery {
@@ -31,8 +32,13 @@ struct RecordedRobot {
   Starts starts;
 };
 
-std::uint64_t key_of(const Variant& variant,
-                     const std::vector<std::shared_ptr<const Experiment>>& experiments) {
+std::uint64_t fingerprint_of(const std::vector<std::shared_ptr<const Experiment>>& experiments) {
+  resume::Fingerprint all;
+  for (const auto& experiment : experiments) all.add(experiment->fingerprint());
+  return all.value();
+}
+
+std::uint64_t key_of(const Variant& variant, std::uint64_t recordings) {
   resume::Fingerprint key;
   key.add(variant.step).add(variant.position_count).add(variant.force_count);
   key.add(static_cast<std::uint64_t>(variant.nuisances.size()));
@@ -41,8 +47,7 @@ std::uint64_t key_of(const Variant& variant,
     key.add(effect.id).add(effect.place);
     for (const auto& [name, value] : effect.parameters) key.add(name).add(value);
   }
-  for (const auto& experiment : experiments) key.add(experiment->fingerprint());
-  return key.value();
+  return key.add(recordings).value();
 }
 
 }  // namespace
@@ -111,7 +116,9 @@ Differences Evaluator::simulate(
     // Fits take one step after the other.
     side_by_side(experiments.size(), [&](std::size_t i) {
       experiments[i]->compare(robot_of[i]->model, robot_of[i]->starts, out[i]);
+      round_differences(*experiments[i], out[i]);
     });
+    differences.array() += 0.0f;  // a journal knows no -0
     if (differences.allFinite()) return differences;
   } catch (const NumericalFailure&) {
   } catch (const BadInput&) {
@@ -123,10 +130,10 @@ Differences Evaluator::known_or_simulated(
     const Variant& variant,
     const std::vector<std::shared_ptr<const Experiment>>& experiments) const {
   if (!journal_) return simulate(variant, experiments);
-  const std::uint64_t key = key_of(variant, experiments);
-  if (auto known = journal_->find(key)) return std::move(*known);
+  const std::uint64_t recordings = fingerprint_of(experiments), key = key_of(variant, recordings);
+  if (auto known = journal_->find(key, recordings)) return std::move(*known);
   Differences result = simulate(variant, experiments);
-  journal_->append(key, result);
+  journal_->append(key, recordings, result);
   return result;
 }
 

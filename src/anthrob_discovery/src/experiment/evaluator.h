@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "anthrob_calib/resume/result_file.h"
 #include "anthrob_core/parameter_list.h"
 #include "anthrob_sim/model/robot_model.h"
 #include "experiment/experiment.h"
+#include "experiment/journal.h"
 
 namespace anthrob {
 namespace discovery {
@@ -29,9 +29,6 @@ struct Variant {
 /// Differences of all experiments, one after the other; empty if the variant cannot be built or
 /// simulated.
 using Differences = Eigen::VectorXf;
-
-/// What was simulated before an interruption.
-using Journal = resume::ResultFile<float>;
 
 /// Progress of the variants that are compared together.
 struct Batch {

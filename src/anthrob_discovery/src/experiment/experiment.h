@@ -29,6 +29,7 @@ struct Channel {
   double resolution = 0.0;            ///< one count of its sensor; 0: none to be seen
   double rows = 1.0;                  ///< measurements in a bin (harmonic mean)
   double digits = 0.0;                ///< step of its file's last digits; 0: they are many
+  double rounding = 0.0;  ///< power of two to whose multiples differences are rounded; 0: none
 
   std::string name() const { return place + "/" + quantity; }
   /// In which it was recorded.

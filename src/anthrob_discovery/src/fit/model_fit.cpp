@@ -23,6 +23,21 @@ std::vector<std::size_t> all_of(const Fitted& fitted) {
   return all;
 }
 
+/// Of a change by one step of the rounding (Channel::rounding) in every bin, the norm [floors].
+double rounding_norm(const Experiments& experiments, const Eigen::VectorXf& whitener) {
+  double squares = 0.0;
+  Eigen::Index offset = 0;
+  for (const auto& experiment : experiments) {
+    for (const Channel& channel : experiment->channels()) {
+      const auto factors = whitener.segment(offset + static_cast<Eigen::Index>(channel.offset),
+                                            static_cast<Eigen::Index>(channel.count));
+      squares += channel.rounding * channel.rounding * factors.cast<double>().squaredNorm();
+    }
+    offset += static_cast<Eigen::Index>(experiment->size());
+  }
+  return std::sqrt(squares);
+}
+
 /// Effects, whose scales change, and the ordinary parameters that have moved.
 /// @param from where the unknowns were   @param hardly such a step is none [scales]
 std::vector<std::size_t> moved_since(const std::vector<double>& from, const Fitted& fitted,
@@ -325,6 +340,7 @@ void ModelFit::improve(Fitted& fitted, int iterations, double enough, double riv
     ++first_effect;
   }
   const std::size_t full_steps = options_.damping.full_steps.size();
+  const double rounding = rounding_norm(experiments_, whitener_);
   std::size_t lightest = 0;  // damping that may lead on
   for (int iteration = 0; iteration < iterations; ++iteration) {
     const Eigen::MatrixXd information =
@@ -372,7 +388,8 @@ void ModelFit::improve(Fitted& fitted, int iterations, double enough, double riv
     // leave only what rounding makes of it.
     const Eigen::VectorXf step = best.step.cast<float>();
     const Eigen::VectorXf change = best.residual - fitted.residual;
-    if (change.norm() > options_.convergence.rounded.value * fitted.residual.norm()) {
+    const double hardly = options_.convergence.rounded.value * fitted.residual.norm() + rounding;
+    if (change.norm() > hardly) {
       const Eigen::VectorXf surprise = change - fitted.sensitivity * step;
       fitted.sensitivity += surprise * (step.transpose() / step.squaredNorm());
     }

@@ -160,6 +160,44 @@ TEST(ModelFit, AStraightLineKeepsItsSlopeThoughStepsVanish) {
   EXPECT_NEAR(fitted.sensitivity.col(0).maxCoeff(), 0.7, 1e-3);
 }
 
+/// Another one whose differences are rounded as those of a robot with muscles.
+class RoundedExperiment final : public Experiment {
+ public:
+  RoundedExperiment(MadeExperiment exact, double rounding) : exact_(std::move(exact)) {
+    channels_ = exact_.channels();
+    channels_.front().rounding = rounding;
+    present_ = exact_.present();
+    bin_ = exact_.bin();
+    duration_ = exact_.duration();
+  }
+  void compare(const std::shared_ptr<const RobotModel>& model, const Starts& starts,
+               float* out) const override {
+    exact_.compare(model, starts, out);
+  }
+
+ private:
+  MadeExperiment exact_;
+};
+
+TEST(ModelFit, StepsThatRoundingHidesLeaveTheSensitivities) {
+  const auto law = of_elbow([](double x) { return 0.7 * (x - 30.0); });
+  const Problem problem([](double) { return 0.0; });
+  constexpr std::size_t kBins = 100;
+  constexpr double kRounding = 1.0 / 64.0;
+  const ModelFit fit(
+      problem.evaluator,
+      {std::make_shared<RoundedExperiment>(MadeExperiment(law, law, kBins, 1), kRounding)},
+      Eigen::VectorXf::Ones(kBins), {});
+  auto unknowns = nuisance_unknowns(problem.evaluator);
+  unknowns[0].spread = 0.0;
+  Fitted fitted = fit.start(Variant{{80.0}}, unknowns);
+  fit.improve(fitted, 20, 0.0);
+  EXPECT_NEAR(fitted.variant.nuisances[0], 30.0, 0.5);
+  // The smallest change that counts is as large as rounding.
+  EXPECT_GE(fitted.sensitivity.col(0).minCoeff(), 0.0);
+  EXPECT_LE(fitted.sensitivity.col(0).maxCoeff(), 1.4);
+}
+
 TEST(ModelFit, SensitivitiesToWhatHardlyMovedAreKeptFromRoundToRound) {
   const Problem problem([](double x) { return x * x / 100.0; });
   Fitted fitted = problem.start(10.0);

@@ -17,7 +17,7 @@ namespace resume {
 ///
 /// The file consists of records: key, count, numbers, and a checksum. Records behind one that is
 /// cut off are lost. Several threads may use it, but only one process at a time.
-/// @tparam Scalar float or double
+/// @tparam Scalar double or std::uint8_t
 template <class Scalar>
 class ResultFile {
  public:
