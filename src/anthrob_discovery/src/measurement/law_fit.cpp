@@ -161,24 +161,24 @@ MuscleLaw fit_muscle(const std::string& name, const PooledMuscle& pooled, Square
   MuscleLaw law;
   law.name = name;
   law.model = model_numbers(*pooled.recordings.front());
-  Numbers numbers(law.model.data());
-  bool has_noise = true;
-  auto solved = pooled.all.solved(true);
+  const Numbers model(law.model.data());
+  auto solved = pooled.all.solved(false);
   // Where the recorded measurements are those that the controller had, their noise is in both.
   const bool is_shared =
       solved && pooled.all.squares_of(*solved) < 0.5 * pooled.all.noise_of(*solved);
-  if (is_shared) {
-    has_noise = false;
-    solved = pooled.all.solved(false);
+  if (!is_shared) solved = pooled.all.solved(true);
+  // Gains may grow until the noise of the measurements explains whatever is left.
+  law.is_determined = solved && pooled.all.squares_of(*solved) < pooled.all.squares_of(model);
+  if (law.is_determined) {
+    for (std::size_t i = 0; i < 4; ++i) law.found[i].value = (*solved)[static_cast<int>(i)];
+    add_law_errors(pooled, !is_shared, law);
   }
-  law.is_determined = solved.has_value();
-  if (solved) numbers = *solved;
+  const Numbers numbers = law.is_determined ? *solved : model;
   for (std::size_t i = 0; i < 4; ++i) law.found[i].value = numbers[static_cast<int>(i)];
-  if (law.is_determined) add_law_errors(pooled, has_noise, law);
   add_weights(pooled, law);
   for (const auto& [block, own] : pooled.blocks) {
     squares[block] += pooled.weights.at(block) *
-                      (own.squares_of(numbers) - (has_noise ? own.noise_of(numbers) : 0.0));
+                      (own.squares_of(numbers) - (is_shared ? 0.0 : own.noise_of(numbers)));
   }
   return law;
 }
