@@ -1,6 +1,7 @@
 #include "admission/frozen_columns.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "admission/movement.h"
@@ -94,6 +95,22 @@ class Witness {
   bool joint_moves_ = false;
 };
 
+/// Whether a joint swings ever less, or comes to rest, as one does that was let go: ranges of its
+/// position by quarters of the recording, down to what is no motion.
+bool comes_to_rest(const Series& position, const FrozenColumnOptions& options) {
+  const auto quarter = static_cast<std::ptrdiff_t>(position.values.size() / 4);
+  if (quarter == 0) return false;
+  double before = HUGE_VAL;
+  for (std::ptrdiff_t q = 0; q < 4; ++q) {
+    const auto begin = position.values.begin() + q * quarter;
+    const auto [low, high] = std::minmax_element(begin, begin + quarter);
+    const double range = *high - *low;
+    if (range >= before && range > options.least_joint) return false;
+    before = range;
+  }
+  return true;
+}
+
 std::set<std::string> frozen_columns(const RobotModel& robot, const Dataset& recording,
                                      const AdmissionOptions& options,
                                      std::vector<std::string>& remarks) {
@@ -123,10 +140,12 @@ std::set<std::string> frozen_columns(const RobotModel& robot, const Dataset& rec
     if (!moves(recording.series(joint.name + "/position"), options.frozen.least_joint,
                options.movement))
       continue;
-    if (effort.values.front() == 0.0) {
-      remarks.push_back(recording.folder + ": " + column +
-                        " is always 0: taken as a joint that was let go; if it was driven, the "
-                        "sensor is dead");
+    if (effort.values.front() == 0.0 &&
+        comes_to_rest(recording.series(joint.name + "/position"), options.frozen)) {
+      remarks.push_back(
+          recording.folder + ": " + column +
+          " is always 0, and the joint comes to rest: taken as one that was let go; if it "
+          "was driven, the sensor is dead");
       continue;
     }
     frozen.insert(column);

@@ -67,7 +67,7 @@ TEST(FreeDecay, TellsTheFrictionOfAJointThatWasLetGo) {
   ASSERT_EQ(answer.verdict, Verdict::kEffectsFound) << summary(answer);
   EXPECT_EQ(answer.effects[0].id, "joint_coulomb") << summary(answer);
   EXPECT_NEAR(answer.effects[0].parameters[0].value, 0.02, 0.002) << summary(answer);
-  EXPECT_EQ(remarks_with(answer, "taken as a joint that was let go"), 4);
+  EXPECT_EQ(remarks_with(answer, "taken as one that was let go"), 4);
 }
 
 // The missing effort turns about with every swing, as noise would.
