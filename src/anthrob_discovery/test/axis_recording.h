@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "anthrob_core/random.h"
+#include "axis_rows.h"
 #include "discover.h"
 
 namespace anthrob {
@@ -13,13 +14,7 @@ namespace discovery {
 /// effort, integrated with steps of 10 us.
 inline Dataset axis_recording(double coulomb, double offset, std::uint64_t seed,
                               double viscous = 203.5, double stiffness = 0.0) {
-  Dataset data;
-  data.folder = "axis";
-  data.meta.robot = "driven_axis";
-  Table& table = data.table("joints");
-  table.column("axis/position");
-  table.column("axis/effort");
-  Column &position = table.columns[0], &effort = table.columns[1];
+  AxisRows made("axis", "driven_axis");
   const CounterRandom random(seed, 9);
   const double mass = 95.1089, h = 1e-5;
   const double first = 60.0 + 20.0 * random.uniform(1), second = 2.0 + 3.0 * random.uniform(2);
@@ -31,9 +26,7 @@ inline Dataset axis_recording(double coulomb, double offset, std::uint64_t seed,
     if (i % 100 == 0)
       u = first * std::sin(1.7 * now) + 0.5 * first * std::sin(second * now) - 2000.0 * (q - 0.1);
     if (i % 100 == 0) {
-      table.t.push_back(static_cast<Nanoseconds>(row) * 1000000);
-      position.values.push_back(q + 2e-7 * random.normal(static_cast<std::uint64_t>(100 + row)));
-      effort.values.push_back(u);
+      made.add(now, q + 2e-7 * random.normal(static_cast<std::uint64_t>(100 + row)), u);
     }
     const double drive = u - offset - stiffness * (q - 0.1) - viscous * v;
     const double friction = std::abs(v) < 1e-7 && std::abs(drive) < coulomb
@@ -43,9 +36,7 @@ inline Dataset axis_recording(double coulomb, double offset, std::uint64_t seed,
     v = v != 0.0 && next * v < 0.0 && std::abs(drive) < coulomb ? 0.0 : next;
     q += h * v;
   }
-  position.present.assign(position.values.size(), 1);
-  effort.present.assign(effort.values.size(), 1);
-  return data;
+  return made.data();
 }
 
 inline Question axis_question(double coulomb, double offset) {

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "anthrob_core/random.h"
+#include "axis_rows.h"
 #include "discover.h"
 
 namespace anthrob {
@@ -34,32 +35,23 @@ struct DrivenBench {
   };
 
   Dataset record(std::uint64_t seed) const {
-    Dataset data;
-    data.folder = "bench_" + std::to_string(seed);
-    data.meta.robot = "bench";
-    Table& table = data.table("joints");
-    table.column("axis/position");
-    table.column("axis/effort");
-    Column &position = table.columns[0], &effort = table.columns[1];
+    AxisRows made("bench_" + std::to_string(seed), "bench");
     const CounterRandom random(seed, 31);
     const auto rows = static_cast<std::size_t>(seconds * rate);
     const double count = 2.0 * M_PI / std::pow(2.0, bits);
     Curve curve{random, *this};
     for (std::size_t i = 0; i < rows; ++i) {
       const double t = static_cast<double>(i) / rate;
-      table.t.push_back(static_cast<Nanoseconds>(std::llround(t * 1e9)));
-      position.values.push_back(std::round(curve.at(t).q / count) * count);
+      const double position = std::round(curve.at(t).q / count) * count;
       // Held until the next row, as a drive holds it.
       constexpr int kPoints = 10;
       double mean = 0.0;
       for (int k = 0; k < kPoints; ++k) {
         mean += needed(curve.at(t + (k + 0.5) / kPoints / rate), random, curve) / kPoints;
       }
-      effort.values.push_back(mean + noise * random.normal(1000 + i));
+      made.add(t, position, mean + noise * random.normal(1000 + i));
     }
-    position.present.assign(rows, 1);
-    effort.present.assign(rows, 1);
-    return data;
+    return made.data();
   }
 
   /// The robot as its user knows it: without dry friction and offset.

@@ -169,10 +169,7 @@ MuscleLaw fit_muscle(const std::string& name, const PooledMuscle& pooled, Square
   if (!is_shared) solved = pooled.all.solved(true);
   // Gains may grow until the noise of the measurements explains whatever is left.
   law.is_determined = solved && pooled.all.squares_of(*solved) < pooled.all.squares_of(model);
-  if (law.is_determined) {
-    for (std::size_t i = 0; i < 4; ++i) law.found[i].value = (*solved)[static_cast<int>(i)];
-    add_law_errors(pooled, !is_shared, law);
-  }
+  if (law.is_determined) add_law_errors(pooled, !is_shared, law);
   const Numbers numbers = law.is_determined ? *solved : model;
   for (std::size_t i = 0; i < 4; ++i) law.found[i].value = numbers[static_cast<int>(i)];
   add_weights(pooled, law);

@@ -145,16 +145,22 @@ TEST(ModelFit, ExactSlopesLeadOnWhereThoseOfTheCoarseStepMislead) {
   EXPECT_NEAR(fitted.variant.nuisances[0], 20.0, 0.1);
 }
 
+/// From 80, where nothing is expected.
+Fitted fitted_from_far(const Problem& problem, const ModelFit& fit) {
+  auto unknowns = nuisance_unknowns(problem.evaluator);
+  unknowns[0].spread = 0.0;
+  Fitted fitted = fit.start(Variant{{80.0}}, unknowns);
+  fit.improve(fitted, 20, 0.0);
+  return fitted;
+}
+
 TEST(ModelFit, AStraightLineKeepsItsSlopeThoughStepsVanish) {
   const MadeExperiment::Law law = of_elbow([](double x) { return 0.7 * (x - 30.0); });
   const Problem problem([](double) { return 0.0; });
   constexpr std::size_t kBins = 100;
   const ModelFit fit(problem.evaluator, {std::make_shared<MadeExperiment>(law, law, kBins, 1)},
                      Eigen::VectorXf::Ones(kBins), {});
-  auto unknowns = nuisance_unknowns(problem.evaluator);
-  unknowns[0].spread = 0.0;
-  Fitted fitted = fit.start(Variant{{80.0}}, unknowns);
-  fit.improve(fitted, 20, 0.0);
+  const Fitted fitted = fitted_from_far(problem, fit);
   EXPECT_NEAR(fitted.variant.nuisances[0], 30.0, 0.5);
   EXPECT_NEAR(fitted.sensitivity.col(0).minCoeff(), 0.7, 1e-3);
   EXPECT_NEAR(fitted.sensitivity.col(0).maxCoeff(), 0.7, 1e-3);
@@ -188,10 +194,7 @@ TEST(ModelFit, StepsThatRoundingHidesLeaveTheSensitivities) {
       problem.evaluator,
       {std::make_shared<RoundedExperiment>(MadeExperiment(law, law, kBins, 1), kRounding)},
       Eigen::VectorXf::Ones(kBins), {});
-  auto unknowns = nuisance_unknowns(problem.evaluator);
-  unknowns[0].spread = 0.0;
-  Fitted fitted = fit.start(Variant{{80.0}}, unknowns);
-  fit.improve(fitted, 20, 0.0);
+  const Fitted fitted = fitted_from_far(problem, fit);
   EXPECT_NEAR(fitted.variant.nuisances[0], 30.0, 0.5);
   // The smallest change that counts is as large as rounding.
   EXPECT_GE(fitted.sensitivity.col(0).minCoeff(), 0.0);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "axis_rows.h"
 #include "discover.h"
 #include "driven_bench.h"
 #include "report/discovery_summary.h"
@@ -15,19 +16,11 @@ namespace {
 /// I a = -m g l sin q - viscous v - coulomb sign v, from rest at `q`, rows at 200 Hz for 8 s.
 Dataset swing(const DrivenBench& bench, double q, std::uint64_t seed) {
   constexpr double kStep = 5e-5;  // [s]
-  Dataset data;
-  data.folder = "swing_" + std::to_string(seed);
-  data.meta.robot = "bench";
-  Table& table = data.table("joints");
-  table.column("axis/position");
-  table.column("axis/effort");
-  Column &position = table.columns[0], &effort = table.columns[1];
+  AxisRows rows("swing_" + std::to_string(seed), "bench");
   const CounterRandom random(seed, 5);
   double v = 0.0;
   for (int row = 0; row < 1600; ++row) {
-    table.t.push_back(static_cast<Nanoseconds>(row) * 5000000);
-    position.values.push_back(q + 1e-3 * random.normal(static_cast<std::uint64_t>(row)));
-    effort.values.push_back(0.0);
+    rows.add(0.005 * row, q + 1e-3 * random.normal(static_cast<std::uint64_t>(row)), 0.0);
     for (int i = 0; i < 100; ++i) {
       const double pull = -bench.gravity * std::sin(q);
       if (v == 0.0 && std::abs(pull) <= bench.coulomb) continue;  // friction holds it
@@ -38,9 +31,7 @@ Dataset swing(const DrivenBench& bench, double q, std::uint64_t seed) {
       q += kStep * v;
     }
   }
-  position.present.assign(position.values.size(), 1);
-  effort.present.assign(effort.values.size(), 1);
-  return data;
+  return rows.data();
 }
 
 Answer ask_about_swings(bool repeated) {

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "anthrob_core/random.h"
+#include "axis_rows.h"
 #include "discover.h"
 #include "report/discovery_summary.h"
 
@@ -23,13 +24,7 @@ using HiddenForce = std::function<double(double q, double v, double dq)>;
 /// m a = u - viscous v - force, with the numbers of the driven axis, pulled to and fro for 8 s
 /// around the middle of its way by an effort that is held over a millisecond.
 Dataset law_recording(const HiddenForce& force, std::uint64_t seed) {
-  Dataset data;
-  data.folder = "axis";
-  data.meta.robot = "driven_axis";
-  Table& table = data.table("joints");
-  table.column("axis/position");
-  table.column("axis/effort");
-  Column &position = table.columns[0], &effort = table.columns[1];
+  AxisRows made("axis", "driven_axis");
   const CounterRandom random(seed, 9);
   const double mass = 95.1, viscous = 203.5, middle = 0.15;
   const double first = 150.0 + 50.0 * random.uniform(1), second = 2.0 + 3.0 * random.uniform(2);
@@ -39,18 +34,14 @@ Dataset law_recording(const HiddenForce& force, std::uint64_t seed) {
     const double t = 1e-3 * row;
     const double u =
         first * std::sin(1.7 * t) + 0.5 * first * std::sin(second * t) - 2000.0 * (q - middle);
-    table.t.push_back(static_cast<Nanoseconds>(row) * 1000000);
-    position.values.push_back(q + 2e-7 * random.normal(static_cast<std::uint64_t>(100 + row)));
-    effort.values.push_back(u);
+    made.add(t, q + 2e-7 * random.normal(static_cast<std::uint64_t>(100 + row)), u);
     for (int i = 0; i < per_row; ++i) {
       v += kRecordingStep / mass * (u - viscous * v - force(q, v, dq));
       dq = kRecordingStep * v;
       q += dq;
     }
   }
-  position.present.assign(position.values.size(), 1);
-  effort.present.assign(effort.values.size(), 1);
-  return data;
+  return made.data();
 }
 
 /// @param force makes one for each recording, as a force may remember

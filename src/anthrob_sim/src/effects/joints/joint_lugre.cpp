@@ -11,8 +11,8 @@ EffectInfo describe() {
   i.description =
       "As joint_presliding, but friction is larger at rest and falls as the joint begins to slide "
       "(Stribeck), and the bristles that bend have a damping of their own. The damping falls with "
-      "speed, so that the law never creates energy. It hardly shows in recordings: state it if you "
-      "know it. Added to the friction of the model.";
+      "speed, so that the law never creates energy; it hardly shows in recordings, so state it if "
+      "you know it. Added to the friction of the model.";
   i.equation =
       "tau = -torque (z + c dz/dt), dz/dt = (v - |v| z / s) / distance, s = 1 + (static_ratio - 1) "
       "exp(-(v / stribeck_velocity)^2), c = damping / (1 + damping |v| / distance)";
