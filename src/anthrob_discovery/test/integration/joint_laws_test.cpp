@@ -34,7 +34,7 @@ Dataset law_recording(const HiddenForce& force, std::uint64_t seed) {
     const double t = 1e-3 * row;
     const double u =
         first * std::sin(1.7 * t) + 0.5 * first * std::sin(second * t) - 2000.0 * (q - middle);
-    made.add(t, q + 2e-7 * random.normal(static_cast<std::uint64_t>(100 + row)), u);
+    made.add(t, q + 2e-7 * random.normal(100 + static_cast<std::uint64_t>(row)), u);
     for (int i = 0; i < per_row; ++i) {
       v += kRecordingStep / mass * (u - viscous * v - force(q, v, dq));
       dq = kRecordingStep * v;
