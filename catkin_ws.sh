@@ -20,7 +20,7 @@ needed_packages=(
   libimage-transport-dev libactionlib-dev python3-actionlib python3-actionlib-msgs
   build-essential cmake
   libbullet-dev libeigen3-dev liburdfdom-dev libtinyxml2-dev libconsole-bridge-dev libyaml-cpp-dev libcli11-dev
-  nlohmann-json3-dev libsqlite3-dev libnlopt-dev libnlopt-cxx-dev libcgal-dev libassimp-dev libceres-dev
+  nlohmann-json3-dev libsqlite3-dev zlib1g-dev libnlopt-dev libnlopt-cxx-dev libcgal-dev libassimp-dev libceres-dev
   libpagmo-dev libopenmpi-dev openmpi-bin
   libopencv-calib3d-dev libopencv-imgcodecs-dev libopencv-imgproc-dev libtbb-dev libaravis-dev libusb-1.0-0-dev
   libdc1394-dev pkg-config python3-numpy python3-jinja2
@@ -69,9 +69,11 @@ usage: ./catkin_ws.sh COMMAND [ARGUMENTS]
   bench             run the benchmarks, also of MuJoCo and OpenCV for comparison; writes build/bench.json
   study NAME        axes: discovery on made-up benches of one driven joint; --drives: with a servo drive
                     calibration: repeat chapter 8 of the thesis with virtual robots
+                    conventions: discovery on recordings of a rig that were taken by other conventions than ours
                     discovery: the blind test; with --slice K/N a part of it; also --list, --summary, --help
                     fuzz: give damaged files to every reader of files, with sanitizers
                     real: run discovery on the data of real machines; --data FOLDER
+                    rules: discovery with other numbers that judge, or without one of its rules
                     threads: run on several threads, with a sanitizer; --tbb FOLDER
                     soak: watch memory, descriptors and threads of the nodes; --hours N; it begins anew
                     hours of computing; an interrupted study continues; results go to build/study/ and overwrite
@@ -309,18 +311,23 @@ movie() {
   say "wrote $out"
 }
 
+idle=()  # how to start what only gets what others leave of the machine
 # usage: ctest_of KINDS PACKAGES ARGUMENT...
 # KINDS of tests as an alternative of a regular expression; PACKAGES likewise, empty: all
 ctest_of() {
   local names="_ctest_(${2:-.*})_($1)_"
   shift 2
-  (cd build && ctest -R "$names" "$@")
+  (cd build && "${idle[@]}" ctest -R "$names" "$@")
 }
 
-# Status 8, of tests that fail, counts as 0: their results tell.
+# usage: run_tests FOLDER KINDS PACKAGES ARGUMENT...
+# FOLDER: below build/, for test.log and ctest's own files. Status 8, of tests that fail, counts as 0: their results tell.
 run_tests() {
-  local status=0
-  ctest_of "$@" --timeout 3600 --output-on-failure >>build/test.log 2>&1 || status=$?
+  local folder="$here/build/$1" status=0
+  shift
+  mkdir -p "$folder"
+  [ -f "$folder/CTestTestfile.cmake" ] || printf 'subdirs("%s")\n' "$here/build" >"$folder/CTestTestfile.cmake"
+  ctest_of "$@" --test-dir "$folder" --timeout 3600 --output-on-failure >>"$folder/test.log" 2>&1 || status=$?
   [ $status -eq 8 ] || return $status
 }
 
@@ -333,7 +340,9 @@ tests() {
   packages="$(IFS='|' && echo "$*")"
   extras
   # The driver's own tests need a CAN bus, of this kernel or of user-mode Linux.
-  if timeout 60 scripts/with_vcan.sh true >/dev/null 2>&1; then
+  local bus
+  bus="$(timeout 60 scripts/with_vcan.sh printenv ANTHROB_VCAN_ON 2>/dev/null)"
+  if [ -n "$bus" ]; then
     export ANTHROB_VCAN_TESTS="${ANTHROB_VCAN_TESTS:-1}"
     # A tenth of real time, so that an ECU does not look dead when the machine is busy for a moment.
     export ANTHROB_PACE="${ANTHROB_PACE:-0.1}"
@@ -356,11 +365,23 @@ tests() {
   [ ${#built[@]} -eq 0 ] || catkin_make -j"$(nproc)" "${built[@]}" >>build/build.log 2>&1 ||
     { grep -m5 -E 'error|Error' build/build.log >&2; die "the tests do not build: see build/build.log"; }
   say "running the tests (log: build/test.log)"
-  : >build/test.log
-  # Side by side; rostests not beside those on a CAN bus, where they would starve an emulated robot.
-  local status=0
-  run_tests 'gtest|vcan' "$packages" -j"$(nproc)" || status=$?
-  run_tests rostest "$packages" -j"$(nproc)" || status=$?
+  rm -f build/test.log build/aside/test.log
+  # Nodes run in real time, one after the other; all other tests have what they leave of the machine. In user-mode Linux,
+  # each test has a bus and a processor of its own; where the host has the bus, it is one for all.
+  local status=0 aside buses=1
+  [[ "$bus" == native* ]] || buses="$(nproc)"
+  (
+    ! chrt --idle 0 true 2>/dev/null || idle=(chrt --idle 0)
+    run_tests aside 'gtest|rostest' "$packages" -LE real_time -j"$(nproc)"
+  ) &
+  aside=$!
+  # shellcheck disable=SC2064
+  trap "kill $aside 2>/dev/null" EXIT
+  run_tests . vcan "$packages" -j"$buses" || status=$?
+  run_tests . rostest "$packages" -L real_time || status=$?
+  wait "$aside" || status=$?
+  trap - EXIT
+  cat build/aside/test.log >>build/test.log
   [ -z "${left_out:-}" ] || say "$left_out"  # again, at the end, where it is seen
   /usr/bin/python3 scripts/count_tests.py build/test_results --registered build/tests.json --status "$status"
 }
