@@ -1,6 +1,5 @@
 // Calibrates a model against recordings.
 #include <tbb/global_control.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include <thread>
 
 #include "anthrob_calib/calibration/extended_model.h"
+#include "anthrob_calib/hosts/mpi_session.h"
 #include "anthrob_calib/resume/fingerprint.h"
 #include "anthrob_core/config_node.h"
 #include "anthrob_core/files.h"
@@ -128,28 +128,18 @@ Recordings recordings_of(const std::string& from) {
   return {from, from.empty() ? std::vector<Dataset>() : load_recordings(from)};
 }
 
-/// Reads the input in every process. If one of them fails, all stop, and one error is reported.
-CalibrationInput read_together(const Arguments& arguments, const MpiSession& session) {
-  constexpr char kBad = 'B', kOther = 'O';  // first letter of a complaint: whose fault it is
+/// Reads the input in every process.
+CalibrationInput read_together(const Arguments& arguments, const hosts::MpiSession& session) {
   std::optional<CalibrationInput> input;
-  std::optional<std::string> complaint;
-  try {
+  session.in_all([&] {
     CalibrationConfig config = configure(arguments);
     input.emplace(CalibrationInput::read(std::move(config), recordings_of(arguments.data),
                                          recordings_of(arguments.validation), arguments.start));
-    if (session.rank() == 0) {
-      keep_earlier_search(arguments);
-      keep_input(arguments, input->config.model_file);
-      require_writable(arguments.out);
-    }
-  } catch (const BadInput& error) {  // the others wait for what is said of it
-    complaint = kBad + std::string(error.what());
-  } catch (const std::exception& error) {
-    complaint = kOther + std::string(error.what());
-  }
-  complaint = session.first_complaint(complaint);
-  if (complaint && complaint->front() == kBad) throw BadInput(complaint->substr(1));
-  if (complaint) throw std::runtime_error(complaint->substr(1));
+    if (session.rank() > 0) return;
+    keep_earlier_search(arguments);
+    keep_input(arguments, input->config.model_file);
+    require_writable(arguments.out);
+  });
   if (!session.all_have(input->fingerprint())) {
     throw BadInput(arguments.config +
                    ": the processes read different configurations, models or recordings: expected "
@@ -223,7 +213,7 @@ double share_of_search(const Arguments& arguments) {
   return arguments.brief ? 0.9 : 0.5;
 }
 
-int calibrate(const CLI::App& app, const Arguments& arguments, const MpiSession& session) {
+int calibrate(const CLI::App& app, const Arguments& arguments, const hosts::MpiSession& session) {
   const CalibrationInput input = read_together(arguments, session);
   say_remarks(app, input);
   const Problem problem = input.problem();
@@ -328,14 +318,11 @@ int main(int argc, char** argv) {
   Arguments arguments;
   // Before MPI loads what it likes: a search begun on several hosts may go on without it.
   arguments.program = resume::program_fingerprint();
-  const MpiSession session(&argc, &argv);
+  const hosts::MpiSession session(&argc, &argv);
   tool::interrupted();                               // listens from now on; rank 0 decides
   if (session.rank() > 0) std::cerr.rdbuf(nullptr);  // one process speaks for all
-  const unsigned may = std::thread::hardware_concurrency();
-  if (session.size() > 1 && static_cast<long>(may) < sysconf(_SC_NPROCESSORS_ONLN)) {
-    std::cerr << "anthrob_calibrate: mpirun restricts this process to " << may << " of "
-              << sysconf(_SC_NPROCESSORS_ONLN)
-              << " processors; mpirun --bind-to none lets it use all\n";
+  if (const auto remark = session.remark_on_processors()) {
+    std::cerr << "anthrob_calibrate: " << *remark << "\n";
   }
   CLI::App app(
       "Calibrates a model against recordings: fits parameters within their ranges so that the "

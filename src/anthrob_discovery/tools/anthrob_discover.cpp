@@ -4,6 +4,7 @@
 #include <iostream>
 #include <thread>
 
+#include "anthrob_calib/hosts/mpi_session.h"
 #include "anthrob_calib/resume/fingerprint.h"
 #include "anthrob_core/config_node.h"
 #include "anthrob_core/files.h"
@@ -18,6 +19,7 @@
 #include "report/discovery_report.h"
 #include "report/discovery_summary.h"
 #include "report/model_text.h"
+#include "report/options_json.h"
 #include "report/progress.h"
 #include "report/separating_files.h"
 #include "stage_share.h"
@@ -50,7 +52,9 @@ std::vector<std::string> save_from(std::size_t first, const std::vector<Dataset>
 struct Arguments {
   discovery::Question question;
   std::vector<std::string> train, test, repeats;  ///< names of recordings
+  std::vector<std::string> numbers;               ///< NAME=NUMBER of options
   std::string out, calibration, robot_file;
+  std::uint64_t program = 0;  ///< fingerprint of this build
 };
 
 void add_options(CLI::App& app, Arguments& a) {
@@ -90,6 +94,12 @@ void add_options(CLI::App& app, Arguments& a) {
       ->capture_default_str()
       ->check(anthrob::tool::within(1e-5, 0.1));
   app.add_option(
+         "--option", a.numbers,
+         "one of the numbers that decide, in place of its default (docs/discovery_method.md; "
+         "may be given several times)")
+      ->type_name("NAME=NUMBER")
+      ->allow_extra_args(false);
+  app.add_option(
          "--close-the-loop", a.robot_file,
          "if the robot is itself a simulation: MODEL is the model file of that simulated robot; "
          "it is recorded to tell rivals apart, and the search is repeated")
@@ -119,6 +129,9 @@ void keep_inputs(const Arguments& a) {
 
 void load_question(const CLI::App& app, Arguments& a) {
   discovery::Question& question = a.question;
+  for (const std::string& assignment : a.numbers) {
+    question.options = discovery::with_option(question.options, assignment);
+  }
   std::vector<std::string> remarks;
   question.calibration_file = calibration_file_of(question.model_file, a.calibration).value_or("");
   question.nuisances = ordinary_parameters(question.model_file, a.calibration, &remarks);
@@ -128,6 +141,17 @@ void load_question(const CLI::App& app, Arguments& a) {
   question.train = load_all(app, a.train);
   question.test = load_all(app, a.test);
   question.repeats = load_all(app, a.repeats);
+}
+
+/// Of the program, and of the numbers that decide what is simulated and compared.
+std::uint64_t simulation_fingerprint(const Arguments& a) {
+  resume::Fingerprint fingerprint;
+  fingerprint.add(a.program);
+  const auto options = discovery::options_json(a.question.options);
+  for (const char* stage : {"admission", "measurement", "experiment"}) {
+    fingerprint.add(options.at(stage).dump());
+  }
+  return fingerprint.value();
 }
 
 void say_what_is_continued(const discovery::Journal& journal, const std::string& out) {
@@ -159,18 +183,46 @@ void write_answer(const discovery::Answer& answer, const discovery::Evaluator& e
   if (!a.robot_file.empty()) discovery::remove_other_recordings(a.out, made, question.options.loop);
 }
 
-int run(const CLI::App& app, Arguments& a) {
+/// Reads the question in every process.
+void load_together(const CLI::App& app, Arguments& a, const hosts::MpiSession& session) {
+  session.in_all([&] {
+    if (session.rank() == 0) keep_inputs(a);
+    load_question(app, a);
+  });
+  const discovery::Question& question = a.question;
+  resume::Fingerprint read;
+  read.add(question.model_fingerprint);
+  for (const ModelParameter& p : question.nuisances) read.add(p.path);
+  read.add(discovery::options_json(question.options).dump());
+  for (const auto* group : {&question.train, &question.test, &question.repeats}) {
+    for (const Dataset& recording : *group) read.add(recording);
+  }
+  if (!session.all_have(resume::fingerprint_text(read.value()))) {
+    throw BadInput(question.model_file +
+                   ": the processes read different models or recordings: expected the same on all "
+                   "hosts");
+  }
+  if (!session.all_have(resume::fingerprint_text(a.program))) {
+    throw BadInput(
+        "the processes run different builds of this program; expected the same build on all hosts");
+  }
+}
+
+int run(const CLI::App& app, Arguments& a, const hosts::MpiSession& session) {
   const auto start = std::chrono::steady_clock::now();
   discovery::Question& question = a.question;
-  keep_inputs(a);
-  load_question(app, a);
+  load_together(app, a, session);
   tool::interrupted();
 
   std::unique_ptr<tool::Progress> bar;
   discovery::Evaluator evaluator(question.model_file, question.nuisances, question.step,
                                  question.jobs);
-  discovery::Journal& journal = evaluator.keep_journal(a.out + "/journal.bin");
-  say_what_is_continued(journal, a.out);
+  evaluator.share_with(session);
+  discovery::Journal* journal = nullptr;
+  if (session.rank() == 0) {
+    journal = &evaluator.keep_journal(a.out + "/journal.bin", simulation_fingerprint(a));
+    say_what_is_continued(*journal, a.out);
+  }
   std::size_t simulated = 0;  // before this stage
   evaluator.on_progress([&](const discovery::Batch& batch) {
     const std::size_t now = evaluator.simulated() - simulated;
@@ -197,9 +249,10 @@ int run(const CLI::App& app, Arguments& a) {
             ? discover(evaluator, question, observer)
             : discover_in_a_loop(evaluator, question, load_robot_model(a.robot_file), observer);
     bar.reset();
+    if (session.rank() > 0) return tool::kDone;
     const std::chrono::duration<double> runtime = std::chrono::steady_clock::now() - start;
     write_answer(answer, evaluator, a, runtime.count());
-    journal.remove();
+    journal->remove();
     tool::progress_lines::headline(headline(answer));
     std::cout << summary(answer);
     write_page("discovery", a.out + "/report.json", a.out + "/report.html");
@@ -207,16 +260,31 @@ int run(const CLI::App& app, Arguments& a) {
   } catch (const discovery::Interrupted&) {
     bar.reset();
     std::cerr << "anthrob_discover: interrupted; run the same command again to continue\n";
+    if (session.size() > 1) session.abort(tool::kInterrupted);
     return tool::kInterrupted;
+  } catch (const std::exception& error) {
+    if (session.size() == 1) throw;
+    bar.reset();
+    std::cerr << "anthrob_discover: " << error.what() << "\n";
+    session.abort(tool::kFailed);  // the others wait for this one
   }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Finds the physical effects that a model of a recorded robot is missing.",
-               "anthrob_discover");
   Arguments arguments;
+  // Before MPI loads what it likes: a search begun on several hosts may go on without it.
+  arguments.program = resume::program_fingerprint();
+  const hosts::MpiSession session(&argc, &argv);
+  if (session.rank() > 0) std::cerr.rdbuf(nullptr);  // one process speaks for all
+  if (const auto remark = session.remark_on_processors()) {
+    std::cerr << "anthrob_discover: " << *remark << "\n";
+  }
+  CLI::App app(
+      "Finds the physical effects that a model of a recorded robot is missing. Uses all threads of "
+      "this host; mpirun adds hosts.",
+      "anthrob_discover");
   add_options(app, arguments);
-  return tool::run(app, argc, argv, [&] { return run(app, arguments); });
+  return tool::run(app, argc, argv, [&] { return run(app, arguments, session); });
 }

@@ -4,6 +4,9 @@
 #include <tbb/parallel_for.h>
 
 #include <chrono>
+#include <cstring>
+#include <iterator>
+#include <optional>
 
 #include "anthrob_calib/resume/fingerprint.h"
 #include "anthrob_sim/core/errors.h"
@@ -50,6 +53,39 @@ std::uint64_t key_of(const Variant& variant, std::uint64_t recordings) {
   return key.add(recordings).value();
 }
 
+/// Nothing where a variant was not simulated yet.
+using Results = std::vector<std::optional<Differences>>;
+
+/// For another process of this program.
+std::string bytes_of(const Results& results) {
+  std::string bytes;
+  for (const auto& result : results) {
+    const std::int64_t count = result ? result->size() : -1;
+    bytes.append(reinterpret_cast<const char*>(&count), sizeof(count));
+    if (count > 0) {
+      bytes.append(reinterpret_cast<const char*>(result->data()),
+                   static_cast<std::size_t>(count) * sizeof(float));
+    }
+  }
+  return bytes;
+}
+
+Results results_in(const std::string& bytes) {
+  Results results;
+  for (std::size_t at = 0; at < bytes.size();) {
+    std::int64_t count = 0;
+    std::memcpy(&count, bytes.data() + at, sizeof(count));
+    at += sizeof(count);
+    std::optional<Differences>& result = results.emplace_back();
+    if (count < 0) continue;
+    const std::size_t length = static_cast<std::size_t>(count) * sizeof(float);
+    result.emplace(static_cast<Eigen::Index>(count));
+    std::memcpy(result->data(), bytes.data() + at, length);
+    at += length;
+  }
+  return results;
+}
+
 }  // namespace
 
 Evaluator::Evaluator(const std::string& model_file, std::vector<ModelParameter> nuisances,
@@ -84,10 +120,10 @@ void Evaluator::require_buildable(const Dataset& recording) const {
   build_recorded(description_, recording, options);
 }
 
-Journal& Evaluator::keep_journal(const std::string& file) {
+Journal& Evaluator::keep_journal(const std::string& file, std::uint64_t program) {
   resume::Fingerprint context;
   // Effect libraries may have no mark of a linker; what they hold tells.
-  context.add(resume::program_fingerprint(resume::program_fingerprint(), effect_library_files()))
+  context.add(resume::program_fingerprint(program, effect_library_files()))
       .add(resume::model_fingerprint(description_.config()))
       .add(step_);
   for (const ModelParameter& p : nuisances_) context.add(p.path);
@@ -137,7 +173,7 @@ Differences Evaluator::known_or_simulated(
   return result;
 }
 
-std::vector<Differences> Evaluator::compare(
+std::vector<Differences> Evaluator::compare_here(
     const std::vector<Variant>& variants,
     const std::vector<std::shared_ptr<const Experiment>>& experiments) const {
   std::vector<Differences> results(variants.size());
@@ -151,6 +187,57 @@ std::vector<Differences> Evaluator::compare(
     if (progress_ && !progress_(batch)) throw Interrupted();
   });
   return results;
+}
+
+std::vector<Differences> Evaluator::compare_everywhere(
+    const std::vector<Variant>& variants,
+    const std::vector<std::shared_ptr<const Experiment>>& experiments) const {
+  const std::uint64_t recordings = fingerprint_of(experiments);
+  Results results(variants.size());
+  if (journal_) {
+    side_by_side(variants.size(), [&](std::size_t i) {
+      results[i] = journal_->find(key_of(variants[i], recordings), recordings);
+    });
+  }
+  results = results_in(session_->from_first(bytes_of(results)));
+  const auto processes = static_cast<std::size_t>(session_->size());
+  std::vector<std::vector<std::size_t>> shares(processes);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    if (!results[i]) shares[count++ % processes].push_back(i);
+  }
+  const auto own = static_cast<std::size_t>(session_->rank());
+  std::vector<Variant> to_do;
+  for (const std::size_t i : shares[own]) to_do.push_back(variants[i]);
+  std::vector<Differences> done = compare_here(to_do, experiments);
+  const std::vector<std::string> all = session_->from_all(
+      bytes_of({std::make_move_iterator(done.begin()), std::make_move_iterator(done.end())}));
+  for (std::size_t r = 0; r < processes; ++r) {
+    Results part = results_in(all[r]);
+    for (std::size_t k = 0; k < part.size(); ++k) {
+      const std::size_t i = shares[r][k];
+      if (journal_ && r != own) {
+        journal_->append(key_of(variants[i], recordings), recordings, *part[k]);
+      }
+      results[i] = std::move(part[k]);
+    }
+  }
+  std::vector<Differences> complete;
+  for (auto& result : results) complete.push_back(std::move(*result));
+  return complete;
+}
+
+std::vector<Differences> Evaluator::compare(
+    const std::vector<Variant>& variants,
+    const std::vector<std::shared_ptr<const Experiment>>& experiments) const {
+  return is_shared() ? compare_everywhere(variants, experiments)
+                     : compare_here(variants, experiments);
+}
+
+void Evaluator::fit_side_by_side(std::size_t count,
+                                 const std::function<void(std::size_t)>& work) const {
+  if (!is_shared()) return side_by_side(count, work);
+  for (std::size_t i = 0; i < count; ++i) work(i);
 }
 
 void Evaluator::side_by_side(std::size_t count,

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "anthrob_calib/hosts/mpi_session.h"
 #include "anthrob_core/parameter_list.h"
 #include "anthrob_sim/model/robot_model.h"
 #include "experiment/experiment.h"
@@ -39,8 +40,8 @@ struct Batch {
 /// Thrown when the user interrupts the work.
 class Interrupted : public std::exception {};
 
-/// Compares variants of a model with experiments, on many threads. The results do not depend on the
-/// number of threads.
+/// Compares variants of a model with experiments, on many threads and perhaps hosts. The results do
+/// not depend on their number.
 class Evaluator {
  public:
   /// @param model_file, nuisances as read for it
@@ -57,7 +58,11 @@ class Evaluator {
 
   /// Opens a journal file: results that are in it are not simulated again. It is only valid for
   /// this program, this model and these ordinary parameters; otherwise it is started again.
-  Journal& keep_journal(const std::string& file);
+  /// @param program resume::program_fingerprint(), from before MPI loaded libraries
+  Journal& keep_journal(const std::string& file, std::uint64_t program);
+  /// Variants that are compared together are shared among the processes, all of which must compare
+  /// the same. Only that of rank 0 keeps a journal. @param session outlives this object
+  void share_with(const hosts::MpiSession& session) { session_ = &session; }
   std::size_t simulated() const { return simulated_; }  ///< variants, so far
 
   /// @return one result for each variant. @throws Interrupted
@@ -66,8 +71,13 @@ class Evaluator {
       const std::vector<std::shared_ptr<const Experiment>>& experiments) const;
 
   /// Runs `count` independent pieces of work, as many at a time as there are threads. Rethrows what
-  /// they throw.
+  /// they throw. Where several processes share the variants, work must not compare any: see
+  /// fit_side_by_side().
   void side_by_side(std::size_t count, const std::function<void(std::size_t)>& work) const;
+
+  /// The same of work that compares variants. Several processes do one piece after the other, so
+  /// that all compare in the same order, and share the variants of each.
+  void fit_side_by_side(std::size_t count, const std::function<void(std::size_t)>& work) const;
 
   /// @param known numbers of the model file that are not `variant`'s to choose, by key path
   /// @throws BadInput if it cannot be built
@@ -77,10 +87,17 @@ class Evaluator {
   void require_buildable(const Dataset& recording) const;
 
  private:
+  bool is_shared() const { return session_ != nullptr && session_->size() > 1; }
   Differences simulate(const Variant& variant,
                        const std::vector<std::shared_ptr<const Experiment>>& experiments) const;
   Differences known_or_simulated(
       const Variant& variant,
+      const std::vector<std::shared_ptr<const Experiment>>& experiments) const;
+  std::vector<Differences> compare_here(
+      const std::vector<Variant>& variants,
+      const std::vector<std::shared_ptr<const Experiment>>& experiments) const;
+  std::vector<Differences> compare_everywhere(
+      const std::vector<Variant>& variants,
       const std::vector<std::shared_ptr<const Experiment>>& experiments) const;
 
   RobotDescription description_;
@@ -91,6 +108,7 @@ class Evaluator {
   std::function<bool(const Batch&)> progress_;
   mutable std::mutex progress_mutex_;
   std::unique_ptr<Journal> journal_;
+  const hosts::MpiSession* session_ = nullptr;
   mutable std::atomic<std::size_t> simulated_{0};
 };
 

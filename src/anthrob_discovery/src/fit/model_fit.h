@@ -129,9 +129,9 @@ class ModelFit {
   /// cannot be simulated.
   std::vector<Eigen::VectorXf> changes(const Variant& from, const Eigen::VectorXf& residual,
                                        std::vector<Variant> to) const;
-  /// See Evaluator::side_by_side().
+  /// See Evaluator::fit_side_by_side().
   void side_by_side(std::size_t count, const std::function<void(std::size_t)>& work) const {
-    evaluator_.side_by_side(count, work);
+    evaluator_.fit_side_by_side(count, work);
   }
   const FitOptions& options() const { return options_; }
   const Experiments& experiments() const { return experiments_; }

@@ -56,5 +56,10 @@ struct Options {
 /// number above 0 and not above 1"; nothing if all do.
 std::optional<std::string> invalid_option(const Options& options);
 
+/// The options with one of them changed.
+/// @param assignment "judgement.merit.evidence=5"
+/// @throws BadInput if there is no such number
+Options with_option(Options options, const std::string& assignment);
+
 }  // namespace discovery
 }  // namespace anthrob

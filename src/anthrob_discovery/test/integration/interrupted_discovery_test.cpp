@@ -41,7 +41,7 @@ TEST_F(InterruptedRun, RunGoesOnWithTheSameBitsAndSimulatesNothingTwice) {
     return std::make_unique<Evaluator>(question.model_file, question.nuisances, question.step, 1);
   };
   const auto whole = evaluator();
-  whole->keep_journal(path("whole.bin"));
+  whole->keep_journal(path("whole.bin"), 1);
   const std::string expected = report_json(discover(*whole, question), question, 0.0);
 
   std::size_t simulated = 0;
@@ -49,7 +49,7 @@ TEST_F(InterruptedRun, RunGoesOnWithTheSameBitsAndSimulatesNothingTwice) {
   std::string report;
   for (const std::size_t third : {1, 2, 4}) {
     const auto part = evaluator();
-    part->keep_journal(path("part.bin"));
+    part->keep_journal(path("part.bin"), 1);
     part->on_progress([&](const Batch&) {
       return simulated + part->simulated() < third * whole->simulated() / 3;
     });
@@ -85,12 +85,12 @@ TEST_F(InterruptedRun, OnTheArmGoesOnWithTheSameBitsOnAnotherNumberOfThreads) {
   ASSERT_EQ(expected.effects.size(), 1u);
 
   auto part = evaluator(2);
-  part->keep_journal(path("journal.bin"));
+  part->keep_journal(path("journal.bin"), 1);
   part->on_progress([&](const Batch&) { return part->simulated() < whole->simulated() / 2; });
   EXPECT_THROW(discover(*part, question), Interrupted);
   part.reset();
   const auto rest = evaluator(2);
-  rest->keep_journal(path("journal.bin"));
+  rest->keep_journal(path("journal.bin"), 1);
   EXPECT_EQ(report_json(discover(*rest, question), question, 0.0),
             report_json(expected, question, 0.0));
   EXPECT_LT(rest->simulated(), 0.7 * static_cast<double>(whole->simulated()));
@@ -182,6 +182,21 @@ TEST_F(InterruptedRun, ToolSaysHowToGoOn) {
   EXPECT_NE(content(path("errors")).find("simulations of an interrupted run"), std::string::npos);
   EXPECT_FALSE(fs::exists(path("stopped/journal.bin")));
   EXPECT_EQ(report("stopped"), report("whole"));
+
+  if (std::system("mpirun --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no mpirun";
+  const std::string mpirun =
+      "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 timeout 300 mpirun "
+      "--oversubscribe -n 3 ";
+  ASSERT_EQ(run(mpirun, "hosts"), 0) << content(path("errors"));
+  EXPECT_EQ(report("hosts"), report("whole"));
+  fs::remove(script);
+  run("env " + mpirun + interrupted_when(path("left/journal.bin"), script), "left");
+  ASSERT_TRUE(fs::exists(path("left/journal.bin"))) << content(path("errors"));
+  // What MPI loads is no other build.
+  ASSERT_EQ(run("", "left"), 0);
+  EXPECT_NE(content(path("errors")).find("simulations of an interrupted run"), std::string::npos)
+      << content(path("errors"));
+  EXPECT_EQ(report("left"), report("whole"));
 }
 
 TEST_F(InterruptedRun, OfAnotherEffectLibraryIsBegunAnew) {

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "anthrob_core/errors.h"
 #include "report/options_json.h"
 
 namespace anthrob {
@@ -122,6 +123,30 @@ TEST(Options, WhatMakesNoSenseIsNamed) {
   EXPECT_EQ(invalid_option(list), "fit.damping.full_steps: -1: expected a number above 0");
   EXPECT_EQ(invalid_option(order), "judgement: expected faint_gap <= real_gap <= certain_gap");
   EXPECT_EQ(invalid_option(certain), "fit.intervals.confidence: 1: expected less than 1");
+}
+
+std::string refused(const std::string& assignment) {
+  try {
+    with_option({}, assignment);
+  } catch (const BadInput& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(Options, AreChangedByName) {
+  EXPECT_EQ(with_option({}, "judgement.merit.evidence=5").judgement.merit.evidence, 5.0);
+  EXPECT_EQ(with_option({}, "fit.guard.price=0.5").fit.guard.price, 0.5);
+  EXPECT_EQ(with_option({}, "judgement.draws=7").judgement.draws, 7u);
+  EXPECT_EQ(refused("judgement.merit.evidence"), "judgement.merit.evidence: expected NAME=NUMBER");
+  EXPECT_EQ(refused("judgement.draws=x"), "judgement.draws=x: expected NAME=NUMBER");
+  EXPECT_EQ(refused("judgement.draw=7"),
+            "judgement.draw: unknown number of discovery; did you mean 'judgement.draws'?");
+  EXPECT_EQ(refused("judgement.draws=7.5"),
+            "judgement.draws: 7.5: expected a whole number above 0");
+  EXPECT_EQ(refused("fit.guard.price=1.5"),
+            "fit.guard.price: 1.5: expected a number above 0 and not above 1");
+  EXPECT_NE(refused("fit.damping.full_steps=1"), "");  // a list
 }
 
 }  // namespace
