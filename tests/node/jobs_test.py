@@ -315,7 +315,7 @@ class Jobs(unittest.TestCase):
                        check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         self.send(self.discovery('halves'), self.discoverer)
         journal = self.path('halves', 'journal.bin')
-        wait_for(lambda: os.path.exists(journal) and os.path.getsize(journal) > 100000, PATIENCE, 'simulations')
+        wait_for(lambda: os.path.exists(journal) and os.path.getsize(journal) > 20000, PATIENCE, 'simulations')
         os.kill(self.child(), signal.SIGKILL)
         state, result = self.finish(self.discoverer)
         self.assertEqual((state, result.error), (GoalStatus.ABORTED, 'killed by signal 9 (Killed)'))

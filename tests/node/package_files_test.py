@@ -18,7 +18,7 @@ KEYS = {
     'console_bridge': 'libconsole-bridge-dev', 'dc1394': 'libdc1394-dev', 'gtest': 'rosunit', 'image_transport': 'image_transport',
     'interactive_markers': 'interactive_markers', 'nlohmann': 'nlohmann-json-dev', 'nlopt.hpp': 'libnlopt-cxx-dev', 'opencv2': 'libopencv-dev', 'pluginlib': 'pluginlib', 'ros': 'roscpp',
     'rosbag': 'rosbag_storage', 'rviz': 'rviz', 'sqlite3.h': 'sqlite3', 'tbb': 'tbb', 'tf2_ros': 'tf2_ros', 'tinyxml2.h': 'tinyxml2', 'unsupported': 'eigen', 'urdf_model': 'liburdfdom-headers-dev',
-    'urdf_parser': 'liburdfdom-dev', 'xmlrpcpp': 'roscpp', 'yaml-cpp': 'yaml-cpp',
+    'urdf_parser': 'liburdfdom-dev', 'xmlrpcpp': 'roscpp', 'yaml-cpp': 'yaml-cpp', 'zlib.h': 'zlib',
     **dict.fromkeys(('benchmark', 'dlfcn.h', 'elf.h', 'fcntl.h', 'link.h', 'linux', 'malloc.h', 'mpi.h', 'mujoco', 'net', 'netdb.h', 'netinet', 'pagmo',
                      'poll.h', 'pthread.h', 'qcustomplot.h', 'sched.h', 'signal.h', 'spawn.h', 'stdlib.h', 'sys', 'unistd.h'))}
 MODULES = {'actionlib': 'actionlib', 'rosbag': 'rosbag', 'roslaunch': 'roslaunch', 'roslib': 'roslib', 'rospy': 'rospy', 'rostest': 'rostest', 'yaml': 'python3-yaml'}

@@ -1,9 +1,13 @@
 #include "experiment/packed_differences.h"
 
+#include <zlib.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace anthrob {
@@ -60,73 +64,47 @@ std::int64_t unfolded(std::uint64_t value) {
   return static_cast<std::int64_t>(value >> 1) ^ -static_cast<std::int64_t>(value & 1);
 }
 
-/// Rice's code: all but the last few bits as so many ones and a zero, then those bits.
-/// Golomb, IEEE Trans. Inf. Theory 12 (1966); Rice, JPL 79-22 (1979).
-const unsigned most_ones = 20;  ///< instead of more of them, all bits follow
-const unsigned all_bits = 64;
+/// Seven bits a byte, the lowest first; the eighth tells that more follow.
+void append_number(std::string& bytes, std::uint64_t value) {
+  for (; value >= 0x80; value >>= 7) bytes.push_back(static_cast<char>(value | 0x80));
+  bytes.push_back(static_cast<char>(value));
+}
 
-class BitWriter {
- public:
-  void write(std::uint64_t value, unsigned bits) {
-    for (unsigned i = bits; i-- > 0;) push(((value >> i) & 1) != 0);
+/// @param at first byte of the number; moved behind it
+std::uint64_t number_at(const std::string& bytes, std::size_t& at) {
+  std::uint64_t value = 0;
+  for (unsigned shift = 0;; shift += 7) {
+    const auto byte = static_cast<unsigned char>(bytes.at(at++));
+    value |= static_cast<std::uint64_t>(byte & 0x7F) << shift;
+    if (byte < 0x80) return value;
   }
-  void write_rice(std::uint64_t value, unsigned last_bits) {
-    const std::uint64_t ones = value >> last_bits;
-    const bool is_short = ones < most_ones;
-    for (std::uint64_t i = 0; i < (is_short ? ones : most_ones); ++i) push(true);
-    if (is_short) push(false);
-    write(value, is_short ? last_bits : all_bits);
-  }
-  Packed bytes() const {
-    return Eigen::Map<const Packed>(bytes_.data(), static_cast<Index>(bytes_.size()));
-  }
+}
 
- private:
-  void push(bool bit) {
-    if (free_ == 0) {
-      bytes_.push_back(0);
-      free_ = 8;
-    }
-    --free_;
-    if (bit) bytes_.back() = static_cast<std::uint8_t>(bytes_.back() | (1u << free_));
+/// By zlib, behind their count.
+Packed deflated(const std::string& bytes) {
+  const auto count = static_cast<std::uint64_t>(bytes.size());
+  uLongf length = compressBound(bytes.size());
+  Packed out(static_cast<Index>(sizeof(count) + length));
+  std::memcpy(out.data(), &count, sizeof(count));
+  const auto* from = reinterpret_cast<const Bytef*>(bytes.data());
+  if (compress2(out.data() + sizeof(count), &length, from, bytes.size(), Z_BEST_SPEED) != Z_OK) {
+    throw std::runtime_error("zlib cannot compress: out of memory");
   }
+  out.conservativeResize(static_cast<Index>(sizeof(count) + length));
+  return out;
+}
 
-  std::vector<std::uint8_t> bytes_;
-  unsigned free_ = 0;  ///< bits of the last byte
-};
-
-class BitReader {
- public:
-  explicit BitReader(const Packed& bytes) : bytes_(bytes) {}
-  std::uint64_t read(unsigned bits) {
-    std::uint64_t value = 0;
-    for (unsigned i = 0; i < bits; ++i) value = (value << 1) | (next() ? 1u : 0u);
-    return value;
+std::string inflated(const Packed& packed) {
+  std::uint64_t count = 0;
+  std::memcpy(&count, packed.data(), sizeof(count));
+  std::string bytes(count, '\0');
+  uLongf length = count;
+  const auto left = static_cast<uLong>(packed.size()) - sizeof(count);
+  if (uncompress(reinterpret_cast<Bytef*>(bytes.data()), &length, packed.data() + sizeof(count),
+                 left) != Z_OK) {
+    throw std::runtime_error("zlib cannot uncompress what this program has compressed");
   }
-  std::uint64_t read_rice(unsigned last_bits) {
-    std::uint64_t ones = 0;
-    while (ones < most_ones && next()) ++ones;
-    if (ones == most_ones) return read(all_bits);
-    return (ones << last_bits) | read(last_bits);
-  }
-
- private:
-  bool next() {
-    const bool bit = ((bytes_[static_cast<Index>(at_ / 8)] >> (7 - at_ % 8)) & 1) != 0;
-    ++at_;
-    return bit;
-  }
-
-  const Packed& bytes_;
-  std::size_t at_ = 0;
-};
-
-/// The last bits with which Rice's code of these numbers is about shortest.
-unsigned last_bits_for(const std::vector<std::uint64_t>& values) {
-  double sum = 0.0;
-  for (const std::uint64_t value : values) sum += static_cast<double>(value);
-  const double mean = sum / static_cast<double>(values.size());
-  return mean < 1.0 ? 0 : static_cast<unsigned>(std::ilogb(mean));
+  return bytes;
 }
 
 }  // namespace
@@ -154,53 +132,44 @@ void round_differences(const Experiment& experiment, float* differences) {
 }
 
 Packed packed(const Eigen::VectorXf& numbers, const Eigen::VectorXf& reference) {
-  BitWriter out;
-  out.write(static_cast<std::uint64_t>(numbers.size()), all_bits);
-  std::vector<std::uint64_t> changes;
+  std::string bytes;
+  append_number(bytes, static_cast<std::uint64_t>(numbers.size()));
   for (Index from = 0; from < numbers.size(); from += piece_length) {
     const Index end = std::min(from + piece_length, numbers.size());
     const int e = common_exponent(numbers.data() + from, end - from);
-    out.write(static_cast<std::uint64_t>(e - lowest_exponent), 16);
+    append_number(bytes, static_cast<std::uint64_t>(e - lowest_exponent));
     if (e == unrounded) {
-      for (Index i = from; i < end; ++i) {
-        std::uint32_t bits = 0;
-        std::memcpy(&bits, &numbers[i], sizeof(bits));
-        out.write(bits, 32);
-      }
+      bytes.append(reinterpret_cast<const char*>(numbers.data() + from),
+                   static_cast<std::size_t>(end - from) * sizeof(float));
       continue;
     }
-    changes.clear();
     std::int64_t before = 0;
     for (Index i = from; i < end; ++i) {
       const auto own = static_cast<std::int64_t>(std::ldexp(static_cast<double>(numbers[i]), -e));
       const std::int64_t left = own - multiples(reference, i, e);
-      changes.push_back(folded(left - before));
+      append_number(bytes, folded(left - before));
       before = left;
     }
-    const unsigned last_bits = last_bits_for(changes);
-    out.write(last_bits, 8);
-    for (const std::uint64_t change : changes) out.write_rice(change, last_bits);
   }
-  return out.bytes();
+  return deflated(bytes);
 }
 
-Eigen::VectorXf unpacked(const Packed& bytes, const Eigen::VectorXf& reference) {
-  BitReader in(bytes);
-  Eigen::VectorXf numbers(static_cast<Index>(in.read(all_bits)));
+Eigen::VectorXf unpacked(const Packed& packed, const Eigen::VectorXf& reference) {
+  const std::string bytes = inflated(packed);
+  std::size_t at = 0;
+  Eigen::VectorXf numbers(static_cast<Index>(number_at(bytes, at)));
   for (Index from = 0; from < numbers.size(); from += piece_length) {
     const Index end = std::min(from + piece_length, numbers.size());
-    const int e = static_cast<int>(in.read(16)) + lowest_exponent;
+    const int e = static_cast<int>(number_at(bytes, at)) + lowest_exponent;
     if (e == unrounded) {
-      for (Index i = from; i < end; ++i) {
-        const auto bits = static_cast<std::uint32_t>(in.read(32));
-        std::memcpy(&numbers[i], &bits, sizeof(bits));
-      }
+      const std::size_t length = static_cast<std::size_t>(end - from) * sizeof(float);
+      std::memcpy(numbers.data() + from, bytes.data() + at, length);
+      at += length;
       continue;
     }
-    const auto last_bits = static_cast<unsigned>(in.read(8));
     std::int64_t left = 0;
     for (Index i = from; i < end; ++i) {
-      left += unfolded(in.read_rice(last_bits));
+      left += unfolded(number_at(bytes, at));
       const std::int64_t own = left + multiples(reference, i, e);
       numbers[i] = static_cast<float>(std::ldexp(static_cast<double>(own), e));
     }

@@ -23,8 +23,7 @@ using Packed = Eigen::Matrix<std::uint8_t, Eigen::Dynamic, 1>;
 
 /// Packs numbers bit for bit (but for the sign of 0), in a byte or less each where they are rounded
 /// and close to a reference. In each piece of them, all are multiples of a power of two. Those of
-/// the reference are taken off, and what is left is written as its change from number to number, by
-/// Rice's code.
+/// the reference are taken off, and what is left is compressed as its change from number to number.
 /// @param reference of the same length, or empty
 Packed packed(const Eigen::VectorXf& numbers, const Eigen::VectorXf& reference);
 /// @param reference that they were packed with
