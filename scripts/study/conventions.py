@@ -112,29 +112,33 @@ def names(answer):
 
 
 def is_reported(convention, answer):
-    """Whether an answer tells a convention: found, refused, or as a motion capture that is late."""
+    """Whether an answer tells a convention: found, or refused."""
     if "failed" in answer:
         return convention.what in ("sign", "unit")
     rows = [row for row in answer["measurement"] if row["source"] == "found"]
     kinds = {"joint": ["joint position"], "velocity": ["velocity"]}.get(convention.kind, [convention.kind])
     delays = ["delay", "average", "filter"]
-    if convention.what in delays and convention.kind == "joint":
-        return any(name.startswith("mocap_delay") for name in names(answer))
     wanted = delays if convention.what in delays else ["clock"] if convention.what == "drift" else \
         ["sign", "unit"] if convention.what in ("sign", "unit") else [convention.what]
     return any(row["what"] in wanted and any(kind in row["channel_kind"] for kind in kinds) for row in rows)
 
 
+def named(answer, late):
+    """What an answer names, with a delay of joints where none of them is late."""
+    told = any(row["what"] == "delay" and row["channel_kind"] == "joint position" for row in answer.get("measurement", []))
+    return names(answer) + (["late joints"] if told and not late else [])
+
+
 def judged(asked, result):
     """How the answer by foreign conventions compares with the one by our own."""
     case, answer = asked.case, result["foreign"]
-    late = any(c.kind == "joint" and c.what in ("delay", "average", "filter") for c in case.conventions)
-    ours = names(result["own"]) if case.effect else []
-    found = [name for name in names(answer) if not (late and name.startswith("mocap_delay"))]
+    late = any(c.kind == "joint" and c.what in ("delay", "average", "filter", "clock") for c in case.conventions)
+    ours = named(result["own"], False) if case.effect else []
+    found = named(answer, late)
     refused = "failed" in answer and any(c.what in ("sign", "unit") for c in case.conventions)
     right = refused or (found == ours and answer.get("verdict") != "unexplained" and "failed" not in answer)
     return {"case": case.name, "conventions": result["conventions"], "effect": case.effect, "right": right,
-            "answer": answer.get("failed") or ", ".join(names(answer)) or answer["verdict"], "ours": ", ".join(ours),
+            "answer": answer.get("failed") or ", ".join(found) or answer["verdict"], "ours": ", ".join(ours),
             "reported": [is_reported(c, answer) for c in case.conventions], "what": [c.what for c in case.conventions],
             "time_s": answer["time_s"]}
 
@@ -158,9 +162,9 @@ def page(rows, programs):
         "`./catkin_ws.sh study conventions` records a rig of two muscles by conventions that are not the simulator's: its "
         "motion is that of `anthrob_replay`, everything between robot and file is made in Python. Two recordings of 20 s to "
         "fit, one to judge, a repetition. *Told*: report.json has the convention among `measurement` (averages and filters "
-        "also as a delay, those of joints as `mocap_delay`), or the recording is refused. *Right*: with nothing hidden, "
-        "nothing is named; with an effect, the answer is that to the same motions by our own conventions. A convention that "
-        "moves no channel by a floor need not be told, and counts here as not told.",
+        "also as a delay), or the recording is refused. *Right*: with nothing hidden, nothing is named; with an effect, the "
+        "answer is that to the same motions by our own conventions. A convention that moves no channel by a floor need not "
+        "be told, and counts here as not told.",
         (["convention", "told", "nothing hidden: right", "an effect hidden: right"], by_kind),
         {"cases": len(rows), "program": several(programs), "machine": machine(),
          "median time [s]": f"{statistics.median(row['time_s'] for row in rows):.0f}"}]

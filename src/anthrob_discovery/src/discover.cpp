@@ -89,7 +89,7 @@ Answer discover(const Evaluator& evaluator, const Question& question, const Obse
   const Diagnosis diagnosis =
       diagnose(hypotheses, admission, scales, variables, baseline, found, observer);
   Answer answer = conclude(hypotheses, admission, scales, variables, baseline, found, diagnosis);
-  answer.measurement = measurement;
+  answer.measurement.insert(answer.measurement.begin(), measurement.begin(), measurement.end());
   answer.detectability = std::move(detectability);
   return answer;
 }

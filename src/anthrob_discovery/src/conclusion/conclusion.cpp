@@ -1,6 +1,7 @@
 #include "conclusion/conclusion.h"
 
 #include "anthrob_core/text.h"
+#include "conclusion/sampled_delay.h"
 #include "conclusion/sizes.h"
 #include "conclusion/verdict.h"
 
@@ -29,8 +30,6 @@ Answer conclude(const Hypotheses& hypotheses, const Admission& admission, const 
   const Options& options = hypotheses.options;
   const auto sizes = measure_sizes(hypotheses, variables, found, admission.question.seed);
   Answer answer;
-  answer.verdict = verdict_on(!found.named.empty(), diagnosis, options.conclusion);
-  if (found.named.empty() && !found.record.withheld.empty()) answer.verdict = Verdict::kCannotTell;
   for (std::size_t e = 0; e < found.named.size(); ++e) {
     FoundEffect effect{found.named[e].found, sizes[e], {}, {}};
     answer.effects.push_back(with_separation(trusted(std::move(effect), options.judgement.trust),
@@ -47,6 +46,10 @@ Answer conclude(const Hypotheses& hypotheses, const Admission& admission, const 
   append(remarks_on_ordinary_parameters(admission.question), answer.remarks);
   append(found.record.withheld, answer.remarks);
   append(diagnosis.remarks, answer.remarks);
+  answer = with_sampled_delay(std::move(answer), *hypotheses.evaluator.model(),
+                              options.measurement.controller.longest);
+  answer.verdict = verdict_on(!answer.effects.empty(), diagnosis, options.conclusion);
+  if (found.named.empty() && !found.record.withheld.empty()) answer.verdict = Verdict::kCannotTell;
   return answer;
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 /// Normal equations of one column: what is missing is constant - late rate - drift (t - middle)
 /// rate.
-struct Sums {
+struct ClockSums {
   Eigen::Matrix3d gram = Eigen::Matrix3d::Zero();
   Eigen::Vector3d cross = Eigen::Vector3d::Zero();
 
@@ -23,8 +23,8 @@ struct Sums {
     cross += weight * terms * value;
   }
   /// Without its constant.
-  Sums centred() const {
-    Sums out = *this;
+  ClockSums centred() const {
+    ClockSums out = *this;
     if (!(gram(0, 0) > 0.0)) return out;
     out.gram -= gram.col(0) * gram.row(0) / gram(0, 0);
     out.cross -= gram.col(0) * cross[0] / gram(0, 0);
@@ -33,10 +33,10 @@ struct Sums {
 };
 
 struct ColumnSums {
-  std::vector<Sums> blocks;
+  std::vector<ClockSums> blocks;
 
-  Sums without(std::size_t left_out) const {
-    Sums all;
+  ClockSums without(std::size_t left_out) const {
+    ClockSums all;
     for (std::size_t b = 0; b < blocks.size(); ++b) {
       if (b == left_out) continue;
       all.gram += blocks[b].gram, all.cross += blocks[b].cross;
@@ -102,7 +102,7 @@ std::optional<ClockFit> fit_rest(const std::vector<ColumnPair>& pairs, double la
     Eigen::Matrix2d gram = Eigen::Matrix2d::Zero();
     Eigen::Vector2d cross = Eigen::Vector2d::Zero();
     for (const ColumnSums& column : columns) {
-      const Sums own = column.without(left_out);
+      const ClockSums own = column.without(left_out);
       gram += own.gram.bottomRightCorner<2, 2>();
       cross += own.cross.tail<2>();
     }

@@ -13,7 +13,7 @@ namespace discovery {
 namespace {
 
 /// Normal equations of measured = constant + factor (expected - late rate), with their squares.
-struct Sums {
+struct LagSums {
   Eigen::Matrix3d gram = Eigen::Matrix3d::Zero();
   Eigen::Vector3d cross = Eigen::Vector3d::Zero();
   double squares = 0.0;
@@ -23,8 +23,8 @@ struct Sums {
     cross += terms * value;
     squares += value * value;
   }
-  Sums without(const Sums& o) const {
-    Sums out;
+  LagSums without(const LagSums& o) const {
+    LagSums out;
     out.gram = gram - o.gram, out.cross = cross - o.cross, out.squares = squares - o.squares;
     return out;
   }
@@ -39,8 +39,8 @@ struct Sums {
 
 /// Of one pair.
 struct PairSums {
-  Sums all;
-  std::vector<Sums> blocks;
+  LagSums all;
+  std::vector<LagSums> blocks;
 };
 
 PairSums sums_at(const LaggingPair& pair, double late, const ClockFitOptions& options) {
@@ -73,7 +73,7 @@ struct Vote {
   double weight = 0.0, sum = 0.0;
 };
 
-Vote vote_of(const Sums& sums) {
+Vote vote_of(const LagSums& sums) {
   const Eigen::LDLT<Eigen::Matrix3d> factors(sums.gram);
   if (factors.info() != Eigen::Success || !(factors.vectorD().minCoeff() > 0.0)) return {};
   const Eigen::Vector3d best = factors.solve(sums.cross);
