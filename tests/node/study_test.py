@@ -27,6 +27,7 @@ import conventions  # noqa: E402
 import discovery  # noqa: E402
 import fuzz  # noqa: E402
 import real  # noqa: E402
+import rules  # noqa: E402
 import soak  # noqa: E402
 import threads  # noqa: E402
 
@@ -356,7 +357,7 @@ for table, columns in names.items():
         for i in range(20100):
             file.write(",".join([f"{i / 1000:.3f}"] + [f"{math.sin(i / 300):.6f}"] * len(columns)) + "\\n")
 '''
-# Names friction where something is hidden, and mocap_delay of joints by foreign conventions.
+# Names friction where something is hidden, and a delay of joints by foreign conventions.
 ANSWERER = '''#!/usr/bin/python3
 import json, os, sys
 out = sys.argv[sys.argv.index("--out") + 1]
@@ -364,8 +365,7 @@ os.makedirs(out)
 hidden = "effects" in open(os.path.join(os.path.dirname(out), "hidden.yaml")).read()
 effects = [{"id": "joint_coulomb", "place": "hinge", "parameters": {}}] if hidden else []
 late = "foreign" in out and os.path.exists("late")
-effects += [{"id": "mocap_delay", "place": "global", "parameters": {}}] if late else []
-held = [{"channel_kind": "joint position", "what": "hold", "source": "found"}]
+held = [{"channel_kind": "joint position", "what": what, "source": "found"} for what in ["hold"] + ["delay"] * late]
 json.dump({"verdict": "effects_found" if effects else "no_missing_effect", "gap": {}, "effects": effects,
            "measurement": held if "foreign" in out else [], "remarks": []}, open(out + "/report.json", "w"))
 open("calls", "a").write("examined\\n")
@@ -393,7 +393,7 @@ class ConventionsStudy(Study):
         self.study('--cases', '3')
         rows = _study.load('out/conventions.json')
         for row, asked in zip(rows, (_recorder.Case(1, i, True, i % 2 == 1) for i in range(3))):
-            is_late = any(c.kind == 'joint' and c.what in ('delay', 'average', 'filter') for c in asked.conventions)
+            is_late = any(c.kind == 'joint' and c.what in ('delay', 'average', 'filter', 'clock') for c in asked.conventions)
             self.assertEqual(row['right'], is_late, row)
 
     def test_what_is_told(self):
@@ -419,6 +419,58 @@ class ConventionsStudy(Study):
             numpy.testing.assert_allclose(column(('unit', 'force', 1e3, 'extensor/force')), 3.0 * after, atol=1e-9)
             held = column(('hold', 'force', 40.0))
             self.assertEqual(len(numpy.unique(held)), len(numpy.unique(numpy.floor(after * 40.0 + 1e-9))))
+
+
+# Names what is hidden, but nothing if much evidence is asked for, and friction where nothing is if little is. It does not
+# simulate again what is in its journal.
+JUDGE = '''#!/usr/bin/python3
+import json, os, sys, time
+out = sys.argv[sys.argv.index("--out") + 1]
+option = sys.argv[sys.argv.index("--option") + 1] if "--option" in sys.argv else "judgement.merit.evidence=3"
+evidence = float(option.split("=")[1]) if "evidence" in option else 3.0
+os.makedirs(out, exist_ok=True)
+if not os.path.exists(out + "/journal.bin"):
+    open(out + "/journal.bin", "w").write("simulated")
+    open("simulated", "a").write("once\\n")
+    time.sleep(0.2)
+os.remove(out + "/journal.bin")
+law = "joint_coulomb" if "joint_coulomb" in out else ""
+law = "" if evidence > 4.0 else "joint_viscous" if evidence < 1.0 and not law else law
+effects = [{"id": law, "place": "axis", "rivals": [], "parameters": {"torque": {"value": 1.0, "ci95": [0, 2]}}}] if law else []
+json.dump({"verdict": "effects_found" if law else "no_missing_effect", "alternatives": [], "effects": effects,
+           "gap": {"test": {}}, "options": {"judgement": {"merit": {"evidence": 3.0}, "draws": 1}, "fit": {"phases": 8},
+           "conclusion": {"most_remains": 0.9}}}, open(out + "/report.json", "w"))
+open("calls", "a").write("asked\\n")
+'''
+
+
+class RulesStudy(Study):
+    study_of = rules
+
+    def programs(self):
+        return {'CONVERT': self.program('converter', CONVERTER), 'DISCOVER': self.program('judge', JUDGE)}
+
+    def test_answers_with_other_numbers(self):
+        self.study('--benches', '2', '--rigs', '0')
+        # Times 0.7, times 1.4 and without; shares have at most 1.
+        self.assertEqual(rules.variations(_study.load('out/rules.json')[0]['options']), [
+            'judgement.merit.evidence=2.1', 'judgement.merit.evidence=4.2', 'judgement.merit.evidence=1e-09',
+            'conclusion.most_remains=0.63', 'conclusion.most_remains=1'])
+        self.assertEqual(self.calls(), 2 * (3 + 6))  # three conversions each
+        with open('simulated') as file:
+            self.assertEqual(len(file.readlines()), 2)
+        rows = [line.split('|')[1:-1] for line in self.told().splitlines() if line.startswith('| `')]
+        self.assertEqual([[cell.strip() for cell in row] for row in rows], [
+            ['`judgement.merit.evidence`', '4.2', '1', '0', '1'], ['`judgement.merit.evidence`', 'never', '1', '0', '1']])
+        self.assertRegex(self.told(), r'right as it is: 2 of 2')
+        self.assertIn('`conclusion.most_remains`.', self.told())
+        self.study('--benches', '2', '--rigs', '0')
+        self.assertEqual(self.calls(), 2 * (3 + 6))  # three conversions each
+
+    def test_one_number_alone_is_no_study(self):
+        self.study('--benches', '1', '--rigs', '0', '--option', 'judgement.merit.evidence=9')
+        self.assertEqual(self.calls(), 3 + 2)
+        self.assertFalse(os.path.exists('studies'))
 
 
 class ThreadsStudy(Study):
