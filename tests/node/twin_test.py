@@ -8,7 +8,7 @@ import rosgraph
 import rospy
 import rostest
 from anthrob_msgs.msg import Gap, MuscleCommand, MuscleStates
-from anthrob_msgs.srv import Step
+from anthrob_msgs.srv import Predict, Step
 from diagnostic_msgs.msg import DiagnosticArray
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
@@ -37,13 +37,13 @@ class Twin(unittest.TestCase):
         wait_for(lambda: cls.command.get_num_connections() and '/two_muscle_rig: twin' in cls.statuses, 30, 'both nodes')
         cls.now = cls.step(steps=STEPS).stamp
 
-    def drive(self, duration):
-        """With sines, in lock-step."""
+    def drive(self, duration, references=None):
+        """With sines, or with references that stay, in lock-step."""
         end = self.now + rospy.Duration(duration)
         while self.now < end:
             t = self.now.to_sec()
             command = MuscleCommand(name=['flexor', 'extensor'], mode=[MuscleCommand.POSITION] * 2,
-                                    reference=[1.0 + 0.3 * math.sin(2.0 * t), 1.0 + 0.3 * math.cos(1.5 * t)])
+                                    reference=references or [1.0 + 0.3 * math.sin(2.0 * t), 1.0 + 0.3 * math.cos(1.5 * t)])
             command.header.stamp = self.now
             self.command.publish(command)
             done = type(self).step(steps=STEPS, command_stamp=self.now)
@@ -106,7 +106,35 @@ class Twin(unittest.TestCase):
         jobs = {f'/two_muscle_rig/{job}/{topic}' for job in ('calibrate', 'discover')
                 for topic in ('feedback', 'result', 'status')}
         self.assertEqual(own - {'/rosout'}, states | jobs | {'/two_muscle_rig/gap', '/tf', '/diagnostics'})
-        self.assertEqual({s for s, nodes in services if node in nodes}, {node + '/get_loggers', node + '/set_logger_level'})
+        self.assertEqual({s for s, nodes in services if node in nodes},
+                         {node + '/get_loggers', node + '/set_logger_level', '/two_muscle_rig/predict'})
+
+    def test_3_prediction(self):
+        ask = rospy.ServiceProxy('predict', Predict)
+        references = [1.5, 1.2]
+        command = MuscleCommand(name=['flexor', 'extensor'], mode=[MuscleCommand.POSITION] * 2, reference=references)
+        said = ask(command=command, duration=1.0, rate=20.0)
+        self.assertTrue(said.success and said.safe, said)
+        self.assertEqual([len(said.muscle_states), len(said.joint_states), len(said.spherical_joint_states)], [20] * 3)
+        self.assertAlmostEqual((said.joint_states[-1].header.stamp - self.now).to_sec(), 1.0, delta=0.1)
+        robot = {}
+        rospy.Subscriber('joint_states', JointState, lambda m: robot.update({m.header.stamp: m.position[0]}))
+        self.drive(1.0, references)
+        for state in said.joint_states:
+            near = min(robot, key=lambda stamp: abs((stamp - state.header.stamp).to_sec()))
+            self.assertAlmostEqual(robot[near], state.position[0], delta=0.01)
+        # The motor may not follow, the joint has a stop.
+        said = ask(command=MuscleCommand(name=['flexor', 'extensor'], mode=[MuscleCommand.VOLTAGE] * 2, reference=[12.0, 0.0]),
+                   duration=10.0)
+        self.assertTrue(said.success)
+        self.assertFalse(said.safe)
+        self.assertEqual(len(said.joint_states), 1)
+        self.assertRegex(' '.join(said.warnings), r'flexor: force of .* N, beyond 100 N from|hinge: position of .* rad, beyond')
+        for wrong, expected in ((dict(duration=0.0), 'duration: 0 s: expected'), (dict(duration=1.0, rate=1e9), 'rate: '),
+                                (dict(duration=1.0, command=MuscleCommand(name=['x'], mode=[1], reference=[0.0])), "command: ")):
+            said = ask(**wrong)
+            self.assertFalse(said.success or said.safe)
+            self.assertIn(expected, said.message)
 
     def test_4_pause(self):
         wait_for(lambda: self.statuses['/two_muscle_rig: twin'].message.startswith('stands still'), 20, 'a pause that is seen')

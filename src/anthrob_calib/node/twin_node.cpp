@@ -10,6 +10,7 @@
 #include "anthrob_core/text.h"
 #include "anthrob_ros/diagnostics.h"
 #include "anthrob_sim/conversions.h"
+#include "twin_messages.h"
 
 namespace anthrob {
 
@@ -56,6 +57,7 @@ TwinNode::TwinNode(std::shared_ptr<const RobotModel> model, const Options& optio
                  : twin::load_floors(options.floors, twin::Channels(*model, options.twins))),
       watch_(options.twins.warn),
       reader_(twins_.model()),
+      predictor_(twins_, nh),
       nh_(nh) {
   muscles_ = nh_.advertise<anthrob_msgs::MuscleStates>(kPrefix + "muscle_states", 10);
   joints_ = nh_.advertise<sensor_msgs::JointState>(kPrefix + "joint_states", 10);
@@ -141,7 +143,9 @@ void TwinNode::publish_states() {
   const ros::Time stamp = time_of(*now);
   if (*now >= next_states_) {
     next_states_ = *now + twin::nanoseconds(1.0 / options_.rate);
-    muscles_.publish(muscle_states(stamp));
+    const bool imposed =
+        options_.feed == twin::Feed::kPositions || options_.feed == twin::Feed::kPostures;
+    muscles_.publish(twin_muscle_states(sim, imposed, stamp));
     joints_.publish(joint_states(sim, stamp));
     balls_.publish(spherical_joint_states(sim, stamp));
   }
@@ -149,31 +153,6 @@ void TwinNode::publish_states() {
     next_ghost_ = *now + twin::nanoseconds(1.0 / kGhostRate);
     publish_ghost(stamp);
   }
-}
-
-anthrob_msgs::MuscleStates TwinNode::muscle_states(const ros::Time& stamp) const {
-  const Simulation& sim = twins_.sim(options_.feed);
-  const bool imposed =
-      options_.feed == twin::Feed::kPositions || options_.feed == twin::Feed::kPostures;
-  anthrob_msgs::MuscleStates states;
-  states.header.stamp = stamp;
-  states.header.frame_id = sim.model().skeleton->bodies[0].name;
-  for (int m = 0; m < static_cast<int>(sim.muscle_count()); ++m) {
-    const Muscle& muscle = sim.muscle(m);
-    const ecu::Measurement& measured = muscle.measured();
-    states.name.push_back(muscle.model().name);
-    states.position.push_back(measured.position);
-    states.velocity.push_back(measured.velocity);
-    // What moves an imposed motor is not its winding.
-    states.current.push_back(imposed ? twin::kNotMeasured : measured.current);
-    states.voltage.push_back(imposed ? twin::kNotMeasured : muscle.voltage());
-    states.force.push_back(muscle.model().has_force_sensor() ? measured.force : twin::kNotMeasured);
-    states.reference.push_back(muscle.reference());
-    states.mode.push_back(static_cast<std::uint8_t>(muscle.mode()));
-    states.ecu_state.push_back(muscle.enabled() ? anthrob_msgs::MuscleStates::ENABLED
-                                                : anthrob_msgs::MuscleStates::STOPPING);
-  }
-  return states;
 }
 
 void TwinNode::publish_ghost(const ros::Time& stamp) {

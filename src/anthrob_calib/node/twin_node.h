@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "predictor.h"
 #include "sample_reader.h"
 #include "twin/gap_watch.h"
 #include "twin/twins.h"
@@ -44,7 +45,6 @@ class TwinNode {
   void advance();
   void tell_starts();
   void publish_states();
-  anthrob_msgs::MuscleStates muscle_states(const ros::Time& stamp) const;
   void publish_ghost(const ros::Time& stamp);
   void publish_gap();
   void publish_diagnostics();
@@ -55,6 +55,7 @@ class TwinNode {
   twin::Twins twins_;
   twin::GapWatch watch_;
   SampleReader reader_;
+  Predictor predictor_;
   ros::NodeHandle nh_;
   std::vector<ros::Subscriber> subscribers_;
   ros::Publisher muscles_, joints_, balls_, gap_, diagnostics_;

@@ -52,6 +52,7 @@ class Twins {
   bool advance();
 
   const RobotModel& model() const { return *model_; }
+  std::shared_ptr<const RobotModel> shared_model() const { return model_; }
   const Channels& channels() const { return channels_; }
   const Measurements& measurements() const { return measurements_; }
   const Simulation& sim(Feed feed) const { return twins_[static_cast<std::size_t>(feed)].sim(); }
