@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """The calibration node beside a simulator that is stepped, so that the machine may be slow."""
 import math
+import shutil
+import tempfile
 import unittest
 
 import numpy
@@ -8,7 +10,7 @@ import rosgraph
 import rospy
 import rostest
 from anthrob_msgs.msg import Gap, MuscleCommand, MuscleStates
-from anthrob_msgs.srv import Predict, Step
+from anthrob_msgs.srv import Predict, Step, TakeModel
 from diagnostic_msgs.msg import DiagnosticArray
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
@@ -107,7 +109,7 @@ class Twin(unittest.TestCase):
                 for topic in ('feedback', 'result', 'status')}
         self.assertEqual(own - {'/rosout'}, states | jobs | {'/two_muscle_rig/gap', '/tf', '/diagnostics'})
         self.assertEqual({s for s, nodes in services if node in nodes},
-                         {node + '/get_loggers', node + '/set_logger_level', '/two_muscle_rig/predict'})
+                         {node + '/get_loggers', node + '/set_logger_level', '/two_muscle_rig/predict', '/two_muscle_rig/twin/take_model'})
 
     def test_3_prediction(self):
         ask = rospy.ServiceProxy('predict', Predict)
@@ -153,6 +155,25 @@ class Twin(unittest.TestCase):
         self.drive(LONG_ENOUGH)
         self.expect_one_floor()
         self.assertEqual(self.value('commands_starts'), '2')
+
+    def test_6_another_model(self):
+        take = rospy.ServiceProxy('twin/take_model', TakeModel)
+        for model, expected in (('anthrob/II', 'a model of another robot: expected the muscles and joints of'),
+                                ('/no/such.yaml', '/no/such.yaml')):
+            said = take(model=model)
+            self.assertFalse(said.success)
+            self.assertIn(expected, said.message)
+        folder = tempfile.mkdtemp()
+        self.addCleanup(shutil.rmtree, folder)
+        right = rospy.get_param('calibrator/model')
+        with open(folder + '/soft.yaml', 'w') as file:
+            file.write('extends: %s\nsprings: {rubber: {modulus: 0.6e6}}\n' % right)
+        self.assertTrue(take(model=folder + '/soft.yaml').success)
+        self.drive(LONG_ENOUGH)
+        wait_for(lambda: self.statuses['/two_muscle_rig: twin: flexor'].message.endswith('spring or tendon'), 60, 'the soft spring')
+        self.assertTrue(take(model=right).success)
+        self.drive(LONG_ENOUGH)
+        self.expect_one_floor()
 
 
 if __name__ == '__main__':

@@ -10,6 +10,8 @@
 #include "anthrob_core/text.h"
 #include "anthrob_ros/diagnostics.h"
 #include "anthrob_sim/conversions.h"
+#include "other_model.h"
+#include "prediction.h"
 #include "twin_messages.h"
 
 namespace anthrob {
@@ -50,15 +52,8 @@ std::string in_floors(double gap) {
 
 TwinNode::TwinNode(std::shared_ptr<const RobotModel> model, const Options& options,
                    ros::NodeHandle nh)
-    : options_(options),
-      twins_(*model, options.twins,
-             options.floors.empty()
-                 ? twin::Floors{}
-                 : twin::load_floors(options.floors, twin::Channels(*model, options.twins))),
-      watch_(options.twins.warn),
-      reader_(twins_.model()),
-      predictor_(twins_, nh),
-      nh_(nh) {
+    : options_(options), nh_(nh) {
+  begin_with(*model);
   muscles_ = nh_.advertise<anthrob_msgs::MuscleStates>(kPrefix + "muscle_states", 10);
   joints_ = nh_.advertise<sensor_msgs::JointState>(kPrefix + "joint_states", 10);
   balls_ =
@@ -83,8 +78,48 @@ TwinNode::TwinNode(std::shared_ptr<const RobotModel> model, const Options& optio
           "external_wrenches", kQueue,
           [this](const anthrob_msgs::ExternalWrenches::ConstPtr& m) { hear_pushes(*m); }),
   };
+  using anthrob_msgs::Predict;
+  using anthrob_msgs::TakeModel;
+  services_ = {
+      nh_.advertiseService<Predict::Request, Predict::Response>(
+          "predict",
+          [this](const Predict::Request& request, Predict::Response& response) {
+            response = predict(*twins_, request);
+            return true;
+          }),
+      nh_.advertiseService<TakeModel::Request, TakeModel::Response>(
+          kPrefix + "take_model",
+          [this](const TakeModel::Request& request, TakeModel::Response& response) {
+            return serve_take_model(request, response);
+          }),
+  };
   timer_ = nh_.createWallTimer(ros::WallDuration(kDiagnosticsPeriod),
                                [this](const ros::WallTimerEvent&) { publish_diagnostics(); });
+}
+
+void TwinNode::begin_with(const RobotModel& model) {
+  twin::Floors floors;
+  if (!options_.floors.empty()) {
+    floors = twin::load_floors(options_.floors, twin::Channels(model, options_.twins));
+  }
+  auto twins = std::make_unique<twin::Twins>(model, options_.twins, floors);
+  reader_ = std::make_unique<SampleReader>(twins->model());
+  watch_ = std::make_unique<twin::GapWatch>(options_.twins.warn);
+  twins_ = std::move(twins);
+  next_states_ = next_ghost_ = 0;
+  starts_ = 0;
+}
+
+bool TwinNode::serve_take_model(const anthrob_msgs::TakeModel::Request& request,
+                                anthrob_msgs::TakeModel::Response& response) {
+  try {
+    begin_with(*other_model(request.model, twins_->model()));
+    ROS_INFO_STREAM("the twin takes over " << twins_->model().file);
+    response.success = true;
+  } catch (const BadInput& error) {
+    response.message = error.what();
+  }
+  return true;
 }
 
 void TwinNode::run() {
@@ -97,7 +132,7 @@ void TwinNode::run() {
 
 template <class Message>
 void TwinNode::hear(const Message& message, twin::Topic topic) {
-  const auto* sample = reader_.read(message);
+  const auto* sample = reader_->read(message);
   if (sample == nullptr) {
     ++malformed_;
     return;
@@ -108,17 +143,17 @@ void TwinNode::hear(const Message& message, twin::Topic topic) {
 }
 
 void TwinNode::hear_pushes(const anthrob_msgs::ExternalWrenches& message) {
-  const auto pushes = reader_.read(message);
+  const auto pushes = reader_->read(message);
   if (pushes) {
-    twins_.hear(*pushes);
+    twins_->hear(*pushes);
   } else {
     ++malformed_;
   }
 }
 
 void TwinNode::advance() {
-  while (twins_.advance()) {
-    watch_.see(twins_.channels(), twins_.report());
+  while (twins_->advance()) {
+    watch_->see(twins_->channels(), twins_->report());
     publish_gap();
   }
   tell_starts();
@@ -126,7 +161,7 @@ void TwinNode::advance() {
 }
 
 void TwinNode::tell_starts() {
-  const twin::Twins::Status& shown = twins_.status(options_.feed);
+  const twin::Twins::Status& shown = twins_->status(options_.feed);
   if (shown.starts > starts_ && starts_ > 0) {
     ROS_WARN_STREAM("the twin lost the robot, and has started anew: " << shown.why);
   }
@@ -134,12 +169,12 @@ void TwinNode::tell_starts() {
 }
 
 void TwinNode::publish_states() {
-  const auto now = twins_.time();
-  if (!now || !twins_.status(options_.feed).in_step) {
+  const auto now = twins_->time();
+  if (!now || !twins_->status(options_.feed).in_step) {
     next_states_ = next_ghost_ = 0;
     return;
   }
-  const Simulation& sim = twins_.sim(options_.feed);
+  const Simulation& sim = twins_->sim(options_.feed);
   const ros::Time stamp = time_of(*now);
   if (*now >= next_states_) {
     next_states_ = *now + twin::nanoseconds(1.0 / options_.rate);
@@ -156,7 +191,7 @@ void TwinNode::publish_states() {
 }
 
 void TwinNode::publish_ghost(const ros::Time& stamp) {
-  const Simulation& sim = twins_.sim(options_.feed);
+  const Simulation& sim = twins_->sim(options_.feed);
   const SkeletonModel& skeleton = *sim.model().skeleton;
   std::vector<geometry_msgs::TransformStamped> transforms;
   for (std::size_t f = 0; f < skeleton.frames.size(); ++f) {
@@ -171,13 +206,13 @@ void TwinNode::publish_ghost(const ros::Time& stamp) {
 }
 
 void TwinNode::publish_gap() {
-  const twin::GapReport& report = twins_.report();
+  const twin::GapReport& report = twins_->report();
   anthrob_msgs::Gap gap;
   gap.header.stamp = time_of(report.stamp);
-  gap.header.frame_id = twins_.model().skeleton->bodies[0].name;
+  gap.header.frame_id = twins_->model().skeleton->bodies[0].name;
   gap.window.assign(std::begin(twin::kWindowBlocks), std::end(twin::kWindowBlocks));
   for (double& window : gap.window) window *= options_.twins.bin * options_.twins.bins_in_block;
-  for (const twin::Channel& channel : twins_.channels().all) {
+  for (const twin::Channel& channel : twins_->channels().all) {
     gap.channel.push_back(channel.name);
     gap.unit.push_back(channel.unit);
   }
@@ -192,11 +227,11 @@ diagnostic_msgs::DiagnosticStatus TwinNode::own_status() const {
   using diagnostic_msgs::DiagnosticStatus;
   DiagnosticStatus status;
   status.name = nh_.getNamespace() + ": twin";
-  status.hardware_id = twins_.model().file;
-  const auto now = twins_.time();
+  status.hardware_id = twins_->model().file;
+  const auto now = twins_->time();
   std::vector<std::string> lost;
   for (const twin::Feed feed : twin::kFeeds) {
-    const twin::Twins::Status& twin = twins_.status(feed);
+    const twin::Twins::Status& twin = twins_->status(feed);
     const std::string name = twin::kFeedNames[static_cast<std::size_t>(feed)];
     if (!twin.in_step) lost.push_back(name + ": " + twin.why);
     status.values.push_back(key_value(name, !twin.in_step ? "lost: " + twin.why
@@ -209,7 +244,7 @@ diagnostic_msgs::DiagnosticStatus TwinNode::own_status() const {
   if (heard_.isZero()) {
     status.message = "waiting for a robot";
   } else if (!now) {
-    status.message = "lost: " + twins_.status(options_.feed).why;
+    status.message = "lost: " + twins_->status(options_.feed).why;
   } else if (!lost.empty()) {
     status.message = "lost: " + joined(lost);
   } else if (silent > kSilence) {
@@ -219,17 +254,18 @@ diagnostic_msgs::DiagnosticStatus TwinNode::own_status() const {
   } else if (behind > kTooLate) {
     status.message = duration_text(behind) + " behind: this computer is too slow for the model";
   } else {
-    status.message = twins_.status(options_.feed).counts ? "in step" : "settling";
+    status.message = twins_->status(options_.feed).counts ? "in step" : "settling";
   }
   const bool well = heard_.isZero() || (now && lost.empty() && behind <= kTooLate);
   status.level = well ? DiagnosticStatus::OK : DiagnosticStatus::WARN;
   status.values.push_back(key_value("behind", text(behind)));
   const bool was_lost = starts_ > 1;
-  status.values.push_back(key_value("last_loss", was_lost ? twins_.status(options_.feed).why : ""));
+  status.values.push_back(
+      key_value("last_loss", was_lost ? twins_->status(options_.feed).why : ""));
   for (int t = 0; t < twin::kTopicCount; ++t) {
     const auto topic = static_cast<twin::Topic>(t);
-    if (!twins_.measurements().needed(topic)) continue;
-    const twin::Arrivals& arrivals = twins_.measurements().arrivals(topic);
+    if (!twins_->measurements().needed(topic)) continue;
+    const twin::Arrivals& arrivals = twins_->measurements().arrivals(topic);
     const std::string name = twin::kTopicNames[t];
     status.values.push_back(key_value(name, std::to_string(arrivals.heard)));
     status.values.push_back(key_value(name + "_late", std::to_string(arrivals.late)));
@@ -243,8 +279,8 @@ diagnostic_msgs::DiagnosticStatus TwinNode::own_status() const {
 std::vector<diagnostic_msgs::DiagnosticStatus> TwinNode::gap_statuses() const {
   using diagnostic_msgs::DiagnosticStatus;
   std::vector<DiagnosticStatus> statuses;
-  const twin::GapReport& report = twins_.report();
-  const auto& channels = twins_.channels().all;
+  const twin::GapReport& report = twins_->report();
+  const auto& channels = twins_->channels().all;
   std::vector<double> largest;
   for (std::size_t c = 0; c < channels.size(); ++c) {
     if (statuses.empty() || channels[c].owner != channels[c - 1].owner) {
@@ -260,7 +296,7 @@ std::vector<diagnostic_msgs::DiagnosticStatus> TwinNode::gap_statuses() const {
     }
     statuses.back().message = in_floors(largest.back());
   }
-  for (const twin::GapWatch::Warning& warning : watch_.warnings()) {
+  for (const twin::GapWatch::Warning& warning : watch_->warnings()) {
     for (DiagnosticStatus& status : statuses) {
       if (status.hardware_id != warning.finding.owner) continue;
       status.level = DiagnosticStatus::WARN;

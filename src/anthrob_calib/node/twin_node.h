@@ -4,6 +4,7 @@
 #include <anthrob_msgs/Gap.h>
 #include <anthrob_msgs/MuscleStates.h>
 #include <anthrob_msgs/SphericalJointStates.h>
+#include <anthrob_msgs/TakeModel.h>
 #include <diagnostic_msgs/DiagnosticStatus.h>
 #include <ros/ros.h>
 #include <sensor_msgs/JointState.h>
@@ -13,7 +14,6 @@
 #include <string>
 #include <vector>
 
-#include "predictor.h"
 #include "sample_reader.h"
 #include "twin/gap_watch.h"
 #include "twin/twins.h"
@@ -37,10 +37,14 @@ class TwinNode {
   void run();
 
  private:
+  /// Begins anew with a model. @throws BadInput for a wrong file of floors
+  void begin_with(const RobotModel& model);
+  bool serve_take_model(const anthrob_msgs::TakeModel::Request& request,
+                        anthrob_msgs::TakeModel::Response& response);
   template <class Message>
   void hear(const Message& message, twin::Topic topic);
-  void take(const twin::MuscleSample& sample, twin::Topic) { twins_.hear(sample); }
-  void take(const twin::JointSample& sample, twin::Topic topic) { twins_.hear(sample, topic); }
+  void take(const twin::MuscleSample& sample, twin::Topic) { twins_->hear(sample); }
+  void take(const twin::JointSample& sample, twin::Topic topic) { twins_->hear(sample, topic); }
   void hear_pushes(const anthrob_msgs::ExternalWrenches& message);
   void advance();
   void tell_starts();
@@ -52,12 +56,12 @@ class TwinNode {
   std::vector<diagnostic_msgs::DiagnosticStatus> gap_statuses() const;
 
   Options options_;
-  twin::Twins twins_;
-  twin::GapWatch watch_;
-  SampleReader reader_;
-  Predictor predictor_;
+  std::unique_ptr<twin::Twins> twins_;
+  std::unique_ptr<twin::GapWatch> watch_;
+  std::unique_ptr<SampleReader> reader_;
   ros::NodeHandle nh_;
   std::vector<ros::Subscriber> subscribers_;
+  std::vector<ros::ServiceServer> services_;
   ros::Publisher muscles_, joints_, balls_, gap_, diagnostics_;
   tf2_ros::TransformBroadcaster transforms_;
   ros::WallTimer timer_;

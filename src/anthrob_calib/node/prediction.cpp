@@ -1,4 +1,6 @@
-#include "predictor.h"
+#include "prediction.h"
+
+#include <ros/time.h>
 
 #include <string>
 #include <vector>
@@ -47,21 +49,15 @@ twin::Outlook outlook_of(const anthrob_msgs::Predict::Request& request, const Ro
 
 }  // namespace
 
-Predictor::Predictor(const twin::Twins& twins, ros::NodeHandle nh) : twins_(twins) {
-  server_ = nh.advertiseService<anthrob_msgs::Predict::Request, anthrob_msgs::Predict::Response>(
-      "predict",
-      [this](const anthrob_msgs::Predict::Request& request,
-             anthrob_msgs::Predict::Response& response) { return serve(request, response); });
-}
-
-bool Predictor::serve(const anthrob_msgs::Predict::Request& request,
-                      anthrob_msgs::Predict::Response& response) const {
+anthrob_msgs::Predict::Response predict(const twin::Twins& twins,
+                                        const anthrob_msgs::Predict::Request& request) {
+  anthrob_msgs::Predict::Response response;
   const ros::WallTime begin = ros::WallTime::now();
   try {
-    const twin::Outlook outlook = outlook_of(request, twins_.model());
-    const auto sim = twin::present(twins_);
+    const twin::Outlook outlook = outlook_of(request, twins.model());
+    const auto sim = twin::present(twins);
     ros::Time now;
-    now.fromNSec(static_cast<std::uint64_t>(*twins_.time()));
+    now.fromNSec(static_cast<std::uint64_t>(*twins.time()));
     const auto crossings = twin::run_ahead(*sim, outlook, [&](double time) {
       const ros::Time then = now + ros::Duration(time);
       response.muscle_states.push_back(twin_muscle_states(*sim, false, then));
@@ -77,7 +73,7 @@ bool Predictor::serve(const anthrob_msgs::Predict::Request& request,
     response.message = std::string("the model fails: ") + error.what();
   }
   response.computed = (ros::WallTime::now() - begin).toSec();
-  return true;
+  return response;
 }
 
 }  // namespace anthrob
