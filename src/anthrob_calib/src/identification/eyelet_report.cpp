@@ -62,9 +62,8 @@ void add_friction_force(const EyeletResult& result, SvgFigure& figure) {
     for (const SlidingPoint& point : result.fitted) {
       if (point.pulling != pulling) continue;
       most = std::max(most, point.load);
-      line.x.push_back(point.load);
-      line.y.push_back(point.force.value - offset_of(result.fit) - point.load);
-      line.error.push_back(0.5 * (point.force.hi - point.force.lo));
+      line.add(point.load, point.force.value - offset_of(result.fit) - point.load,
+               0.5 * (point.force.hi - point.force.lo));
     }
     if (line.x.empty()) continue;
     panel.lines.push_back(line);
@@ -87,10 +86,8 @@ void add_coefficients(const EyeletResult& result, SvgFigure& figure) {
     line.colour = pulling ? 0 : 1;
     for (const SlidingPoint& point : result.fitted) {
       if (point.pulling != pulling) continue;
-      line.x.push_back(point.load);
-      line.y.push_back(capstan_coefficient(point, offset_of(result.fit)));
-      line.error.push_back(0.5 * (point.force.hi - point.force.lo) / point.force.value /
-                           point.turning);
+      line.add(point.load, capstan_coefficient(point, offset_of(result.fit)),
+               0.5 * (point.force.hi - point.force.lo) / point.force.value / point.turning);
     }
     if (line.x.empty()) continue;
     panel.lines.push_back(line);

@@ -75,9 +75,7 @@ void add_stage1(const ViscoelasticFit& fit, const std::string& label, const Valu
   Line used = dots(label, Line::kFilled, 0), ignored = dots("not used", Line::kOpen, 0);
   for (const LevelFit& level : fit.levels) {
     Line& line = level.used ? used : ignored;
-    line.x.push_back(level.strain);
-    line.y.push_back(value(level));
-    line.error.push_back(error(level));
+    line.add(level.strain, value(level), error(level));
   }
   panel.lines = {used, ignored};
 }

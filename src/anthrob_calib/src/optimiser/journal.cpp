@@ -113,6 +113,7 @@ void Journal::note(const Point& point, double fitness) {
   if (fitness < best_fitness_) best_fitness_ = fitness, best_ = point;
   open_.best = open_count_ == 0 ? fitness : std::min(open_.best, fitness);
   ++open_count_;
+  open_.fitness.push_back(fitness);
   if (std::isfinite(fitness)) ++open_.valid, open_sum_ += fitness;
 }
 

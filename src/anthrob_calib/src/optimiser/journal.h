@@ -25,6 +25,7 @@ struct Generation {
   double best = 0.0;    ///< of this batch
   double mean = 0.0;    ///< of the valid ones of this batch
   double best_ever = 0.0;
+  std::vector<double> fitness;  ///< of this batch, in order
 };
 
 /// Stands between an optimiser and the evaluator: keeps the best point and the history, and stores

@@ -30,6 +30,16 @@ ordered_json errors_json(const MeanErrors& errors, const RobotModel& model) {
   return out;
 }
 
+/// The muscle with the largest mean error of its force in a run.
+ordered_json worst_muscle(const RunDifferences& run, const RobotModel& model) {
+  const Eigen::MatrixXd& force = run.shown().force;
+  if (force.size() == 0) return nullptr;
+  Eigen::Index worst = 0;
+  const double error = force.cwiseAbs().colwise().mean().maxCoeff(&worst);
+  return {{"name", model.muscles[static_cast<std::size_t>(worst)].name},
+          {"force_N", number(error)}};
+}
+
 /// A model that could not be simulated has null.
 ordered_json runs_json(const BeforeAfter& both, const RobotModel& model) {
   if (both.runs.empty()) return nullptr;
@@ -43,9 +53,12 @@ ordered_json runs_json(const BeforeAfter& both, const RobotModel& model) {
   out["mean"] = {{"before", mean(both.before)}, {"after", mean(both.after)}};
   out["runs"] = ordered_json::array();
   for (std::size_t r = 0; r < both.runs.size(); ++r) {
-    out["runs"].push_back({{"name", both.runs[r].name},
-                           {"before", of_run(both.before, r)},
-                           {"after", of_run(both.after, r)}});
+    out["runs"].push_back(
+        {{"name", both.runs[r].name},
+         {"before", of_run(both.before, r)},
+         {"after", of_run(both.after, r)},
+         {"worst_muscle",
+          both.after.empty() ? ordered_json(nullptr) : worst_muscle(both.after[r], model)}});
   }
   return out;
 }

@@ -41,9 +41,11 @@ std::string example_figure(const Example& example, bool any_effect) {
 }
 
 SvgFigure::Line line_of(const std::string& label, const Dependence::Curve& curve) {
-  SvgFigure::Line line{label, curve.at, curve.mean};
+  SvgFigure::Line line{label, {}, {}};
   line.marks = SvgFigure::Line::kFilled;
-  line.error = curve.error;
+  for (std::size_t i = 0; i < curve.at.size(); ++i) {
+    line.add(curve.at[i], curve.mean[i], curve.error[i]);
+  }
   return line;
 }
 

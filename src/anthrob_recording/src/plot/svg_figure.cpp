@@ -72,14 +72,29 @@ struct Frame {
   double py(double value) const { return top + (y.hi - value) / (y.hi - y.lo) * kPanelHeight; }
 };
 
+/// For ticks and label; names are longer.
+double room_below(const SvgFigure::Panel& panel) {
+  std::size_t longest = 0;
+  for (const std::string& name : panel.names) longest = std::max(longest, name.size());
+  return kGap + std::min(90.0, 3.2 * static_cast<double>(longest));
+}
+
 std::string axes(const Frame& frame, const SvgFigure::Panel& panel) {
   const double bottom = frame.top + kPanelHeight, right = kWidth - kRight;
   std::string out;
-  for (const double t : ticks(frame.x)) {
-    const std::string x = coordinate(frame.px(t));
-    out += "<path class=\"grid\" d=\"M" + x + " " + coordinate(frame.top) + "V" +
-           coordinate(bottom) + "\"/>\n";
-    out += text_at(frame.px(t), bottom + 16, number(t), "text-anchor=\"middle\"");
+  const auto grid = [&](double t) {
+    return "<path class=\"grid\" d=\"M" + coordinate(frame.px(t)) + " " + coordinate(frame.top) +
+           "V" + coordinate(bottom) + "\"/>\n";
+  };
+  for (std::size_t i = 0; i < panel.names.size(); ++i) {
+    const auto t = static_cast<double>(i);
+    const std::string x = coordinate(frame.px(t)), y = coordinate(bottom + 14);
+    out += grid(t) + text_at(frame.px(t), bottom + 14, panel.names[i],
+                             "font-size=\"10\" text-anchor=\"end\" transform=\"rotate(-35 " + x +
+                                 " " + y + ")\"");
+  }
+  for (const double t : panel.names.empty() ? ticks(frame.x) : std::vector<double>()) {
+    out += grid(t) + text_at(frame.px(t), bottom + 16, number(t), "text-anchor=\"middle\"");
   }
   for (const double t : ticks(frame.y)) {
     const std::string y = coordinate(frame.py(t));
@@ -90,7 +105,8 @@ std::string axes(const Frame& frame, const SvgFigure::Panel& panel) {
   out += "<rect class=\"frame\" x=\"" + coordinate(kLeft) + "\" y=\"" + coordinate(frame.top) +
          "\" width=\"" + coordinate(right - kLeft) + "\" height=\"" + coordinate(kPanelHeight) +
          "\"/>\n";
-  out += text_at(0.5 * (kLeft + right), bottom + 34, panel.x_label, "text-anchor=\"middle\"");
+  out += text_at(0.5 * (kLeft + right), bottom + room_below(panel) - 16, panel.x_label,
+                 "text-anchor=\"middle\"");
   const double middle = frame.top + 0.5 * kPanelHeight;
   out += text_at(16, middle, panel.y_label,
                  "text-anchor=\"middle\" transform=\"rotate(-90 16 " + coordinate(middle) + ")\"");
@@ -113,10 +129,15 @@ std::string polyline(const Frame& frame, const SvgFigure::Line& line, const std:
          (line.dashed ? " stroke-dasharray=\"5 3\"" : "") + " d=\"" + path + "\"/>\n";
 }
 
+bool has_stroke(const SvgFigure::Line& line, std::size_t i) {
+  return i < line.low.size() && i < line.high.size() && std::isfinite(line.low[i]) &&
+         std::isfinite(line.high[i]);
+}
+
 std::string mark(double x, double y, const SvgFigure::Line& line, const std::string& colour) {
-  return "<circle cx=\"" + coordinate(x) + "\" cy=\"" + coordinate(y) + "\" r=\"3.5\" stroke=\"" +
-         colour + "\" fill=\"" + (line.marks == SvgFigure::Line::kOpen ? "white" : colour) +
-         "\"/>\n";
+  return "<circle cx=\"" + coordinate(x) + "\" cy=\"" + coordinate(y) + "\" r=\"" +
+         (line.marks == SvgFigure::Line::kDots ? "1.5" : "3.5") + "\" stroke=\"" + colour +
+         "\" fill=\"" + (line.marks == SvgFigure::Line::kOpen ? "white" : colour) + "\"/>\n";
 }
 
 std::string points(const Frame& frame, const SvgFigure::Line& line, const std::string& colour) {
@@ -124,10 +145,10 @@ std::string points(const Frame& frame, const SvgFigure::Line& line, const std::s
   for (std::size_t i = 0; i < line.x.size(); ++i) {
     if (!std::isfinite(line.x[i]) || !std::isfinite(line.y[i])) continue;
     const double x = frame.px(line.x[i]);
-    if (i < line.error.size() && std::isfinite(line.error[i])) {
+    if (has_stroke(line, i)) {
       out += "<path class=\"line\" stroke=\"" + colour + "\" d=\"M" + coordinate(x) + " " +
-             coordinate(frame.py(line.y[i] - line.error[i])) + "V" +
-             coordinate(frame.py(line.y[i] + line.error[i])) + "\"/>\n";
+             coordinate(frame.py(line.low[i])) + "V" + coordinate(frame.py(line.high[i])) +
+             "\"/>\n";
     }
     out += mark(x, frame.py(line.y[i]), line, colour);
   }
@@ -145,21 +166,21 @@ std::string sample(double x, double y, const SvgFigure::Line& line, const std::s
 void include(const SvgFigure::Line& line, Frame& frame) {
   for (const double x : line.x) frame.x.include(x);
   for (std::size_t i = 0; i < line.y.size(); ++i) {
-    const double error = i < line.error.size() ? line.error[i] : 0.0;
-    frame.y.include(line.y[i] - error);
-    frame.y.include(line.y[i] + error);
+    frame.y.include(line.y[i]);
+    if (has_stroke(line, i)) frame.y.include(line.low[i]), frame.y.include(line.high[i]);
   }
 }
 
 }  // namespace
 
 SvgFigure::Panel& SvgFigure::add_panel(const std::string& x_label, const std::string& y_label) {
-  panels_.push_back({x_label, y_label, {}});
+  panels_.push_back({x_label, y_label, {}, {}, false});
   return panels_.back();
 }
 
 std::string SvgFigure::render() const {
-  const double height = kTop + static_cast<double>(panels_.size()) * (kPanelHeight + kGap);
+  double height = kTop;
+  for (const Panel& panel : panels_) height += kPanelHeight + room_below(panel);
   std::string out = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " +
                     coordinate(kWidth) + " " + coordinate(height) + "\" width=\"" +
                     coordinate(kWidth) + "\" height=\"" + coordinate(height) +
@@ -173,10 +194,13 @@ std::string SvgFigure::render() const {
     Frame frame;
     frame.top = top;
     for (const Line& line : panel.lines) include(line, frame);
+    if (panel.from_zero) frame.y.include(0.0);
     // Points on the frame would be half outside.
     const bool points_only = !panel.lines.empty() && panel.lines.front().marks != Line::kNone;
-    frame.x.finish(points_only ? 0.03 : 0.0);
+    frame.x.finish(!panel.names.empty() ? 0.08 : points_only ? 0.03 : 0.0);
     frame.y.finish(0.05);
+    if (panel.from_zero && frame.y.lo < 0.0)
+      frame.y.lo = std::min(0.0, frame.y.lo + 0.05 * (frame.y.hi - frame.y.lo) / 1.1);
     out += axes(frame, panel);
     double legend = top + 12;
     int next = 0;
@@ -190,7 +214,7 @@ std::string SvgFigure::render() const {
       out += sample(x, legend - 4, line, colour) + text_at(x + 28, legend, line.label);
       legend += 17;
     }
-    top += kPanelHeight + kGap;
+    top += kPanelHeight + room_below(panel);
   }
   return out + "</svg>\n";
 }
