@@ -338,6 +338,7 @@ class Jobs(unittest.TestCase):
         self.assertEqual(shares, sorted(shares))
         self.assertEqual((self.feedback[-1].stage, shares[-1]), ('done', 1.0))
         self.assertEqual(self.feedback[-1].best, 'joint_coulomb @ axis')
+        self.assertTrue(any(0.0 < f.seconds_left < 600.0 for f in self.feedback))
 
 
 if __name__ == '__main__':

@@ -235,8 +235,10 @@ int run(const CLI::App& app, Arguments& a, const hosts::MpiSession& session) {
     bar.reset();
     std::cerr << what << "\n";
     tool::progress_lines::stage(what);
-    tool::progress_lines::share(discovery::share_of_stages(stages++, question.max_effects),
-                                std::nullopt);
+    const double share = discovery::share_of_stages(stages++, question.max_effects);
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+    tool::progress_lines::share(
+        share, share > 0.0 ? std::optional(spent.count() * (1.0 - share) / share) : std::nullopt);
     simulated = evaluator.simulated();
     bar = std::make_unique<tool::Progress>("  running");
     return !tool::interrupted();
