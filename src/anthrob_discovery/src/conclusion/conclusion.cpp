@@ -46,8 +46,8 @@ Answer conclude(const Hypotheses& hypotheses, const Admission& admission, const 
   append(remarks_on_ordinary_parameters(admission.question), answer.remarks);
   append(found.record.withheld, answer.remarks);
   append(diagnosis.remarks, answer.remarks);
-  answer = with_sampled_delay(std::move(answer), *hypotheses.evaluator.model(),
-                              options.measurement.controller.longest);
+  answer = with_sampled_delays(std::move(answer), *hypotheses.evaluator.model(),
+                               options.measurement.controller.longest);
   answer.verdict = verdict_on(!answer.effects.empty(), diagnosis, options.conclusion);
   if (found.named.empty() && !found.record.withheld.empty()) answer.verdict = Verdict::kCannotTell;
   return answer;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "anthrob_core/text.h"
 
@@ -34,25 +36,51 @@ std::set<std::string> kinds_of_joints(const RobotModel& robot) {
   return kinds;
 }
 
+/// An effect that sampling makes, too, up to some delay [s].
+struct SampledEffect {
+  std::string id;
+  std::set<std::string> channel_kinds;
+  double longest;
+};
+
+std::vector<SampledEffect> sampled_effects(const RobotModel& robot, double longest) {
+  double tick = 0.0;
+  for (const MuscleModel& muscle : robot.muscles) {
+    if (muscle.has_controller) tick = std::max(tick, muscle.controller.period);
+  }
+  return {{"mocap_delay", kinds_of_joints(robot), longest},
+          {"sensing_latency", {"position and force"}, tick},
+          {"command_latency", {"reference"}, tick}};
+}
+
+/// @param effect index of the one that is told among `measurement`
+Answer moved(Answer answer, std::size_t effect, const std::set<std::string>& kinds) {
+  const FoundEffect& found = answer.effects[effect];
+  const FoundParameter& delay = found.parameters.front();
+  const std::string place = found.place == "global" ? "all" : found.place;
+  for (const std::string& kind : kinds) {
+    answer.measurement.push_back(
+        {kind, place, "delay", delay.value, {delay.low, delay.high}, delay.unit, "found"});
+  }
+  answer.remarks.push_back(
+      (place == "all" ? "all of kind " : place + "/") +
+      joined({kinds.begin(), kinds.end()}, " and ") + ": " + significant(1e3 * delay.value, 2) +
+      " ms late, as sampling makes them: " + "model.yaml has it as " + found.id);
+  answer.search.alternatives = without_effect(effect, std::move(answer.search.alternatives));
+  answer.effects.erase(answer.effects.begin() + static_cast<std::ptrdiff_t>(effect));
+  return answer;
+}
+
 }  // namespace
 
-Answer with_sampled_delay(Answer answer, const RobotModel& robot, double longest) {
-  const auto is_sampled = [&](const FoundEffect& effect) {
-    return effect.id == "mocap_delay" && effect.parameters.front().value <= longest;
-  };
-  const auto found = std::find_if(answer.effects.begin(), answer.effects.end(), is_sampled);
-  if (found == answer.effects.end()) return answer;
-  const FoundParameter delay = found->parameters.front();
-  for (const std::string& kind : kinds_of_joints(robot)) {
-    answer.measurement.push_back(
-        {kind, "all", "delay", delay.value, {delay.low, delay.high}, delay.unit, "found"});
+Answer with_sampled_delays(Answer answer, const RobotModel& robot, double longest) {
+  for (const SampledEffect& sampled : sampled_effects(robot, longest)) {
+    for (std::size_t e = answer.effects.size(); e-- > 0;) {
+      const FoundEffect& effect = answer.effects[e];
+      if (effect.id != sampled.id || effect.parameters.front().value > sampled.longest) continue;
+      answer = moved(std::move(answer), e, sampled.channel_kinds);
+    }
   }
-  answer.remarks.push_back("all joints are stamped " + significant(1e3 * delay.value, 2) +
-                           " ms too late: model.yaml has it as mocap_delay");
-  answer.search.alternatives =
-      without_effect(static_cast<std::size_t>(found - answer.effects.begin()),
-                     std::move(answer.search.alternatives));
-  answer.effects.erase(found);
   return answer;
 }
 

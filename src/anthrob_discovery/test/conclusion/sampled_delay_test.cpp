@@ -37,7 +37,7 @@ Answer answer_with(double delay) {
 
 TEST(SampledDelay, IsHowRecordingsWereTaken) {
   const auto robot = load_robot_model(ANTHROB_CONFIG_DIR "/anthrob/model_I.yaml");
-  const Answer answer = with_sampled_delay(answer_with(0.012), *robot, kLongest);
+  const Answer answer = with_sampled_delays(answer_with(0.012), *robot, kLongest);
   ASSERT_EQ(answer.effects.size(), 2u);
   EXPECT_EQ(answer.effects[0].id, "joint_coulomb");
   EXPECT_EQ(answer.effects[1].id, "payload");
@@ -54,16 +54,33 @@ TEST(SampledDelay, IsHowRecordingsWereTaken) {
     EXPECT_EQ(row.source, "found");
   }
   EXPECT_EQ(answer.remarks.back(),
-            "all joints are stamped 12 ms too late: model.yaml has it as mocap_delay");
+            "all of kind joint position and orientation: 12 ms late, as sampling makes them: "
+            "model.yaml has it as mocap_delay");
   // What stands for both of the others does so still.
   ASSERT_EQ(answer.search.alternatives.size(), 1u);
   EXPECT_EQ(answer.search.alternatives[0].id, "b");
   EXPECT_EQ(answer.search.alternatives[0].instead_of[1], 1u);
 }
 
+TEST(SampledDelay, OfControllersIsLessThanATick) {
+  const auto robot = load_robot_model(ANTHROB_CONFIG_DIR "/anthrob/model_I.yaml");
+  const double tick = robot->muscles.front().controller.period;
+  Answer answer;
+  answer.effects = {effect("sensing_latency", "all", "delay", 0.6 * tick),
+                    effect("command_latency", "biceps_brachii", "delay", 0.5 * tick),
+                    effect("command_latency", "all", "delay", 1.5 * tick)};
+  answer = with_sampled_delays(std::move(answer), *robot, kLongest);
+  ASSERT_EQ(answer.effects.size(), 1u);
+  EXPECT_EQ(answer.effects[0].place, "all");
+  ASSERT_EQ(answer.measurement.size(), 2u);
+  EXPECT_EQ(answer.measurement[0].channel_kind, "position and force");
+  EXPECT_EQ(answer.measurement[1].channel_kind, "reference");
+  EXPECT_EQ(answer.measurement[1].place, "biceps_brachii");
+}
+
 TEST(SampledDelay, BeyondWhatSamplingMakesIsAnEffect) {
   const auto robot = load_robot_model(ANTHROB_CONFIG_DIR "/anthrob/model_I.yaml");
-  const Answer answer = with_sampled_delay(answer_with(0.03), *robot, kLongest);
+  const Answer answer = with_sampled_delays(answer_with(0.03), *robot, kLongest);
   EXPECT_EQ(answer.effects.size(), 3u);
   EXPECT_TRUE(answer.measurement.empty());
   EXPECT_TRUE(answer.remarks.empty());
