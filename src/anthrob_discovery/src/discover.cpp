@@ -88,8 +88,8 @@ Answer discover(const Evaluator& evaluator, const Question& question, const Obse
       search(hypotheses, baseline, screening, std::move(scores), question.max_effects, observer));
   const Diagnosis diagnosis =
       diagnose(hypotheses, admission, scales, variables, baseline, found, observer);
-  Answer answer = conclude(hypotheses, admission, scales, variables, baseline, found, diagnosis);
-  answer.measurement.insert(answer.measurement.begin(), measurement.begin(), measurement.end());
+  Answer answer =
+      conclude(hypotheses, admission, measurement, scales, variables, baseline, found, diagnosis);
   answer.detectability = std::move(detectability);
   return answer;
 }

@@ -11,6 +11,7 @@
 #include "player_reading.h"
 #include "reference_limits.h"
 #include "timed_calls.h"
+#include "twin_reading.h"
 
 namespace anthrob {
 
@@ -21,6 +22,8 @@ struct News {
   std::vector<CallResult> answers;
   std::vector<MuscleGroup> antagonists;  ///< once, soon after connect()
   std::optional<PlayerReading> player;   ///< the newest, where a recording is played
+  std::optional<GapReading> gap;         ///< the newest, where a twin runs
+  std::vector<JobReading> jobs;          ///< of the calibration node
 };
 
 /// A call of one of the robot's services, or of the tool that saves its gains: "save_gains".
@@ -49,6 +52,8 @@ class RobotConnection {
   virtual bool call(const ServiceRequest& request) = 0;
   /// A stop that asks for no answer, for when the service gives none: the topic emergency_stop.
   virtual void shout_stop() = 0;
+  /// Asks a job of the calibration node, "calibrate" or "discover", to end with what it has.
+  virtual void cancel(const std::string& job) = 0;
   /// The simulator's services are there.
   virtual bool simulated() const = 0;
   virtual ReferenceLimits limits() const = 0;

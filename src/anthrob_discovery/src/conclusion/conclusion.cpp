@@ -24,12 +24,14 @@ FoundEffect with_separation(FoundEffect effect, const NamedEffect& named,
 
 }  // namespace
 
-Answer conclude(const Hypotheses& hypotheses, const Admission& admission, const Scales& scales,
+Answer conclude(const Hypotheses& hypotheses, const Admission& admission,
+                const Measurement& measurement, const Scales& scales,
                 const std::vector<MeasuredVariable>& variables, const Baseline& baseline,
                 const SearchResult& found, const Diagnosis& diagnosis) {
   const Options& options = hypotheses.options;
   const auto sizes = measure_sizes(hypotheses, variables, found, admission.question.seed);
   Answer answer;
+  answer.measurement = measurement;
   for (std::size_t e = 0; e < found.named.size(); ++e) {
     FoundEffect effect{found.named[e].found, sizes[e], {}, {}};
     answer.effects.push_back(with_separation(trusted(std::move(effect), options.judgement.trust),
@@ -48,7 +50,11 @@ Answer conclude(const Hypotheses& hypotheses, const Admission& admission, const 
   append(diagnosis.remarks, answer.remarks);
   answer = with_sampled_delays(std::move(answer), *hypotheses.evaluator.model(),
                                options.measurement.controller.longest);
-  answer.verdict = verdict_on(!answer.effects.empty(), diagnosis, options.conclusion);
+  answer.verdict = verdict_on(!found.named.empty(), diagnosis, options.conclusion);
+  const bool all_sampled = answer.effects.empty() && !found.named.empty();
+  if (all_sampled && answer.verdict == Verdict::kEffectsFound) {
+    answer.verdict = Verdict::kNoMissingEffect;
+  }
   if (found.named.empty() && !found.record.withheld.empty()) answer.verdict = Verdict::kCannotTell;
   return answer;
 }

@@ -1,6 +1,7 @@
 #include "conclusion/sampled_delay.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <string>
 #include <utility>
@@ -43,6 +44,13 @@ struct SampledEffect {
   double longest;
 };
 
+/// Where the joints' clock was moved, what is left of its offset looks like a delay.
+bool has_moved_clock(const Measurement& measurement) {
+  return std::any_of(measurement.begin(), measurement.end(), [](const MeasurementProperty& row) {
+    return row.what == "clock" && row.unit == "s";
+  });
+}
+
 std::vector<SampledEffect> sampled_effects(const RobotModel& robot, double longest) {
   double tick = 0.0;
   for (const MuscleModel& muscle : robot.muscles) {
@@ -74,7 +82,8 @@ Answer moved(Answer answer, std::size_t effect, const std::set<std::string>& kin
 }  // namespace
 
 Answer with_sampled_delays(Answer answer, const RobotModel& robot, double longest) {
-  for (const SampledEffect& sampled : sampled_effects(robot, longest)) {
+  const double latest = has_moved_clock(answer.measurement) ? HUGE_VAL : longest;
+  for (const SampledEffect& sampled : sampled_effects(robot, latest)) {
     for (std::size_t e = answer.effects.size(); e-- > 0;) {
       const FoundEffect& effect = answer.effects[e];
       if (effect.id != sampled.id || effect.parameters.front().value > sampled.longest) continue;

@@ -1,5 +1,7 @@
 #include "measurement/measurement.h"
 
+#include <algorithm>
+
 #include "measurement/clock_correction.h"
 #include "measurement/column_correction.h"
 #include "measurement/counts.h"
@@ -11,6 +13,15 @@
 
 namespace anthrob {
 namespace discovery {
+
+namespace {
+
+bool follows_another_law(const Measurement& measurement) {
+  return std::any_of(measurement.begin(), measurement.end(),
+                     [](const MeasurementProperty& row) { return row.what == "controller"; });
+}
+
+}  // namespace
 
 Description as_stated(const RobotModel& robot, const Question& question) {
   Description description;
@@ -24,11 +35,15 @@ Description describe(const Evaluator& evaluator, Description description) {
   correct_columns(robot, description);
   correct_holds(robot, description);
   const std::vector<MovedTable> moved = correct_clock_offsets(robot, description);
-  const auto simulated =
+  auto simulated =
       replays(evaluator, recordings_of(description.question), description.question.feed);
   correct_columns_by_model(robot, simulated, description);
-  correct_clocks(robot, simulated, moved, description);
   correct_controller_stamps(robot, evaluator.description().config(), description);
+  // Under the model's law, motors come earlier or later than under the robot's.
+  if (follows_another_law(description.measurement)) {
+    simulated = replays(evaluator, recordings_of(description.question), description.question.feed);
+  }
+  correct_clocks(robot, simulated, moved, description);
   correct_currents(robot, description);
   report_counts(robot, description);
   tell_contradictions(description);

@@ -78,6 +78,15 @@ TEST(SampledDelay, OfControllersIsLessThanATick) {
   EXPECT_EQ(answer.measurement[1].place, "biceps_brachii");
 }
 
+TEST(SampledDelay, MayBeTheRestOfAClocksOffset) {
+  const auto robot = load_robot_model(ANTHROB_CONFIG_DIR "/anthrob/model_I.yaml");
+  Answer answer = answer_with(0.04);
+  answer.measurement = {{"orientation", "joints", "clock", 0.4, {0.37, 0.43}, "s", "found"}};
+  answer = with_sampled_delays(std::move(answer), *robot, kLongest);
+  EXPECT_EQ(answer.effects.size(), 2u);
+  EXPECT_EQ(answer.measurement.size(), 3u);
+}
+
 TEST(SampledDelay, BeyondWhatSamplingMakesIsAnEffect) {
   const auto robot = load_robot_model(ANTHROB_CONFIG_DIR "/anthrob/model_I.yaml");
   const Answer answer = with_sampled_delays(answer_with(0.03), *robot, kLongest);

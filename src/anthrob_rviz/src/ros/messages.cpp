@@ -35,6 +35,14 @@ PlayerReading reading_of(const anthrob_msgs::PlayerState& message) {
   return {message.bag, message.duration, message.position, message.rate, message.paused != 0};
 }
 
+std::optional<GapReading> reading_of(const anthrob_msgs::Gap& message) {
+  if (message.gap.size() != message.window.size() * message.channel.size() * message.feed.size() ||
+      message.window.size() < 2) {
+    return std::nullopt;
+  }
+  return GapReading{message.channel, message.feed, message.window, message.gap};
+}
+
 Diagnosis diagnosis_of(const diagnostic_msgs::DiagnosticStatus& status) {
   Diagnosis diagnosis;
   diagnosis.name = status.name;

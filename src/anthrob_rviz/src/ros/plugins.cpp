@@ -8,6 +8,7 @@
 #include "panel/record_panel.h"
 #include "panel/robot_panel.h"
 #include "panel/scope_panel.h"
+#include "panel/twin_panel.h"
 #include "ros/ros_connection.h"
 #include "ros/scope/scope_over_ros.h"
 #include "ros/tendons_display.h"
@@ -31,6 +32,9 @@ RecordPanel::RecordPanel()
 PlayPanel::PlayPanel()
     : PlayPanel(std::make_unique<RosConnection>(RosConnection::Role::kWatcher), default_robot()) {}
 
+TwinPanel::TwinPanel()
+    : TwinPanel(std::make_unique<RosConnection>(RosConnection::Role::kWatcher), default_robot()) {}
+
 ScopePanel::ScopePanel() : ScopePanel(scope_over_ros()) {}
 
 }  // namespace anthrob
@@ -41,4 +45,5 @@ PLUGINLIB_EXPORT_CLASS(anthrob::GainsPanel, rviz::Panel)
 PLUGINLIB_EXPORT_CLASS(anthrob::RecordPanel, rviz::Panel)
 PLUGINLIB_EXPORT_CLASS(anthrob::PlayPanel, rviz::Panel)
 PLUGINLIB_EXPORT_CLASS(anthrob::ScopePanel, rviz::Panel)
+PLUGINLIB_EXPORT_CLASS(anthrob::TwinPanel, rviz::Panel)
 PLUGINLIB_EXPORT_CLASS(anthrob::TendonsDisplay, rviz::Display)

@@ -1,5 +1,11 @@
 #include "ros/ros_connection.h"
 
+#include <actionlib_msgs/GoalID.h>
+#include <anthrob_msgs/CalibrateActionFeedback.h>
+#include <anthrob_msgs/CalibrateActionResult.h>
+#include <anthrob_msgs/DiscoverActionFeedback.h>
+#include <anthrob_msgs/DiscoverActionResult.h>
+#include <anthrob_msgs/Gap.h>
 #include <anthrob_msgs/MomentArms.h>
 #include <anthrob_msgs/MuscleCommand.h>
 #include <anthrob_msgs/PlayerState.h>
@@ -55,6 +61,7 @@ void RosConnection::connect(const std::string& robot) {
   subscribers_.clear();
   commands_.shutdown();
   stop_.shutdown();
+  cancels_.clear();
   queue_.clear();
   news_ = {};
   calls_ = {};
@@ -82,6 +89,14 @@ void RosConnection::subscribe() {
       nh_, "player/state", 1, [this](const anthrob_msgs::PlayerState& message, const std::string&) {
         news_.player = reading_of(message);
       }));
+  subscribers_.push_back(subscribe_bounded<anthrob_msgs::Gap>(
+      nh_, "gap", 1, [this](const anthrob_msgs::Gap& message, const std::string&) {
+        if (auto gap = reading_of(message)) news_.gap = std::move(gap);
+      }));
+  subscribe_job<anthrob_msgs::CalibrateActionFeedback, anthrob_msgs::CalibrateActionResult>(
+      "calibrate");
+  subscribe_job<anthrob_msgs::DiscoverActionFeedback, anthrob_msgs::DiscoverActionResult>(
+      "discover");
   arms_ = subscribe_bounded<anthrob_msgs::MomentArms>(
       nh_, "moment_arms", 1,
       [this](const anthrob_msgs::MomentArms& message, const std::string&) { hear_arms(message); });
@@ -90,6 +105,28 @@ void RosConnection::subscribe() {
       [this](const diagnostic_msgs::DiagnosticArray& message, const std::string&) {
         hear_diagnostics(message);
       }));
+}
+
+template <class Feedback, class Result>
+void RosConnection::subscribe_job(const std::string& job) {
+  subscribers_.push_back(subscribe_bounded<Feedback>(
+      nh_, job + "/feedback", 10, [this, job](const Feedback& message, const std::string&) {
+        const auto& feedback = message.feedback;
+        news_.jobs.push_back(
+            {job, true, feedback.stage, feedback.best, feedback.share, feedback.seconds_left});
+      }));
+  subscribers_.push_back(subscribe_bounded<Result>(
+      nh_, job + "/result", 10, [this, job](const Result& message, const std::string&) {
+        news_.jobs.push_back({job,
+                              false,
+                              {},
+                              {},
+                              1.0,
+                              0.0,
+                              message.result.headline,
+                              static_cast<bool>(message.result.success)});
+      }));
+  cancels_[job] = nh_.advertise<actionlib_msgs::GoalID>(job + "/cancel", 1);
 }
 
 /// One message says enough, and each costs its sender time.
@@ -148,6 +185,11 @@ bool RosConnection::call(const ServiceRequest& request) {
 
 void RosConnection::shout_stop() {
   if (stop_) stop_.publish(std_msgs::Empty());
+}
+
+void RosConnection::cancel(const std::string& job) {
+  const auto publisher = cancels_.find(job);
+  if (publisher != cancels_.end()) publisher->second.publish(actionlib_msgs::GoalID());  // all
 }
 
 bool RosConnection::simulated() const {

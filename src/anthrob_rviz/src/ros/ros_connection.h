@@ -6,6 +6,7 @@
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -27,6 +28,7 @@ class RosConnection final : public RobotConnection {
   void send(const std::vector<Reference>& references) override;
   bool call(const ServiceRequest& request) override;
   void shout_stop() override;
+  void cancel(const std::string& job) override;
   bool simulated() const override;
   ReferenceLimits limits() const override;
 
@@ -36,6 +38,8 @@ class RosConnection final : public RobotConnection {
 
   void subscribe();
   void survey(double now);
+  template <class Feedback, class Result>
+  void subscribe_job(const std::string& job);
   void hear_arms(const anthrob_msgs::MomentArms& message);
   void hear_muscles(const anthrob_msgs::MuscleStates& message);
   void hear_diagnostics(const diagnostic_msgs::DiagnosticArray& message);
@@ -46,6 +50,7 @@ class RosConnection final : public RobotConnection {
   std::vector<ros::Subscriber> subscribers_;
   ros::Subscriber arms_;
   ros::Publisher commands_, stop_;
+  std::map<std::string, ros::Publisher> cancels_;  ///< by job
   News news_;
   TimedCalls calls_;
   std::shared_ptr<Surroundings> surroundings_;

@@ -23,6 +23,9 @@ struct FakeRobot {
   std::vector<CallResult> answers;
   std::vector<MuscleGroup> antagonists;
   std::optional<PlayerReading> player;
+  std::optional<GapReading> gap;
+  std::vector<JobReading> jobs;
+  std::vector<std::string> cancelled;
   int shouts = 0;
 
   /// Commands come from another thread.
@@ -53,6 +56,8 @@ class FakeConnection final : public RobotConnection {
     news.answers = std::exchange(robot_->answers, {});
     news.antagonists = std::exchange(robot_->antagonists, {});
     news.player = robot_->player;
+    news.gap = std::exchange(robot_->gap, std::nullopt);
+    news.jobs = std::exchange(robot_->jobs, {});
     return news;
   }
   void send(const std::vector<Reference>& references) override { robot_->receive(references); }
@@ -61,6 +66,7 @@ class FakeConnection final : public RobotConnection {
     return true;
   }
   void shout_stop() override { ++robot_->shouts; }
+  void cancel(const std::string& job) override { robot_->cancelled.push_back(job); }
   bool simulated() const override { return robot_->simulated; }
   ReferenceLimits limits() const override { return {}; }
 
