@@ -16,13 +16,13 @@ const char* const kTwin = ": twin";  // ends the name of its status
 const char* const kJobs[] = {"calibrate", "discover"};
 
 QTableWidgetItem* cell_of(double floors) {
-  auto* item = new QTableWidgetItem(
-      std::isfinite(floors) ? QString::fromStdString(significant(floors, floors < 10.0 ? 2 : 3))
-                            : QString());
+  const bool told = std::isfinite(floors);
+  auto* item =
+      new QTableWidgetItem(told ? QString::number(floors, 'f', floors < 10.0 ? 1 : 0) : QString());
   item->setTextAlignment(Qt::AlignCenter);
   item->setFlags(Qt::ItemIsEnabled);
   QColor colour(colour_of(level_of_gap(floors)));
-  colour.setAlpha(std::isfinite(floors) ? 110 : 30);
+  colour.setAlpha(told ? 110 : 30);
   item->setBackground(colour);
   return item;
 }
@@ -41,6 +41,11 @@ TwinPanel::TwinPanel(std::unique_ptr<RobotConnection> connection, const std::str
       "Gap of the last 10 s in floors: 1 is a right model with noise. Columns: what the copy of "
       "the model is fed with");
   table_->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
+  // Four columns in a narrow panel.
+  table_->horizontalHeader()->setStyleSheet(
+      "QHeaderView::section { font-size: 9px; padding: 1px; }");
+  table_->verticalHeader()->setStyleSheet(
+      "QHeaderView::section { font-size: 10px; padding: 1px; }");
   table_->verticalHeader()->setDefaultSectionSize(22);
   column()->addWidget(table_, 1);
   for (const char* job : kJobs) add_job(job);

@@ -80,7 +80,7 @@ TEST_F(TwinPanelTest, ShowsGapsInColours) {
   EXPECT_EQ(table->verticalHeaderItem(0)->text(), "flexor");
   EXPECT_EQ(table->horizontalHeaderItem(1)->text(), "postures");
   EXPECT_EQ(table->item(0, 0)->text(), "1.2");
-  EXPECT_EQ(table->item(0, 1)->text(), "6");
+  EXPECT_EQ(table->item(0, 1)->text(), "6.0");
   EXPECT_EQ(table->item(1, 1)->text(), "");
   const auto colour = [&](int row, int column) {
     return table->item(row, column)->background().color().rgb();
