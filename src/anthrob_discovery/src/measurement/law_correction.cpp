@@ -223,6 +223,8 @@ std::optional<ControlLaw> other_law(const ControllerAlgebra& algebra,
   auto law = find_control_law(data);
   const double most = std::max(options.noise_only, options.unexplained.value * algebra.left({}));
   if (!law || data.left(law->squares) > most) return {};
+  // What rounding to whole ticks leaves of a shift, some filter may fit.
+  if (shift && algebra.left(shift) < options.rounded_shift * most) return {};
   if (data.sureness(algebra.squares_at({}), law->squares) < options.sure) return {};
   const auto explains = [&](const std::optional<StampShift>& other) {
     return other && data.sureness(algebra.squares_at(other), law->squares) < options.clearly;
