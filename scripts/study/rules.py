@@ -4,7 +4,7 @@ are benches of a driven joint (scripts/study/_bench.py) and a rig of two muscles
 answered once; what was simulated for that is kept, so that asking again with one number of docs/discovery_method.md times
 0.7, times 1.4, or at a value at which its rule does nothing, takes little time.
 
-The same command continues an interrupted study. Writes build/study/rules.json and studies/rules.md.
+The same command continues an interrupted study. Writes build/study/rules.json, and the page rules.md there and in studies/.
 """
 
 import argparse
@@ -12,6 +12,7 @@ import concurrent.futures
 import json
 import os
 import shutil
+import threading
 import time
 
 import _bench
@@ -22,7 +23,7 @@ from _study import (OUT, OneLineParser, commit, load, machine, markdown_page, mu
                     whole, write)
 from real import CONVERT, DISCOVER
 
-DOCUMENT = "studies/rules.md"
+PUBLISHED = "studies"
 # Groups of numbers that judge: steps 6, 7, 8 and 10 of the method.
 JUDGING = ["judgement", "hypotheses.comparison", "search", "conclusion"]
 FACTORS = [0.7, 1.4]
@@ -51,6 +52,7 @@ WITHOUT = {
     "conclusion.least_left": NOTHING,
     "conclusion.least_effort": NOTHING,
 }
+STOP = threading.Event()  # no further question
 HEAD = ["number", "value", "other answers", "better", "worse"]
 
 
@@ -109,6 +111,8 @@ class Stored:
         stored = self.begin()
         self.ask("", stored)
         for option in options_of(stored["options"]):
+            if STOP.is_set():
+                raise KeyboardInterrupt
             self.ask(option, stored)
         return stored
 
@@ -242,6 +246,7 @@ def main():
                 results.append(result)
                 say(f"{len(results)} of {len(cases)}: {case.name}: {'right' if result['answers']['']['right'] else 'wrong'}")
         except KeyboardInterrupt:
+            STOP.set()
             pool.shutdown(cancel_futures=True)
             raise
     if options.option:
@@ -250,8 +255,8 @@ def main():
     write(f"{options.out}/rules.json", json.dumps(results, indent=1))
     write(f"{options.out}/rules.md", text)
     if of_the_study(options):
-        os.makedirs("studies", exist_ok=True)
-        write(DOCUMENT, text)
+        os.makedirs(PUBLISHED, exist_ok=True)
+        write(f"{PUBLISHED}/rules.md", text)
 
 
 if __name__ == "__main__":
