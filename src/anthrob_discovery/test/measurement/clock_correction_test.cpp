@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "arm.h"
+#include "measurement/leading_reference.h"
 #include "measurement/measurement.h"
 
 namespace anthrob {
@@ -70,6 +71,39 @@ TEST(ClockCorrection, PutsClocksOfJointsRight) {
   EXPECT_LT(difference(late.question.test[0], right.test[0], "elbow/position"), 1e-3);
   EXPECT_EQ(late.remarks.size(), 1u);
   EXPECT_TRUE(late.corrected);
+}
+
+TEST(ClockCorrection, GoesByTheLawThatTheRobotFollows) {
+  const Arm arm;
+  Question question = arm_question();
+  for (Dataset* recording : recordings_of(question)) {
+    MadeRecording made;
+    made.length = 30.0;
+    made.seed = made.noise = recording == &question.train[0] ? 1 : 2;
+    const Dataset asked = made.commands(arm.plain);
+    // Derivatives of errors: the robot moves as one of the model's law that is asked for more.
+    Dataset led = asked;
+    for (const MuscleModel& muscle : arm.plain->muscles) {
+      const ecu::PositionGains& gains = muscle.controller.position;
+      lead_reference(muscle.name, gains.derivative / gains.proportional, muscle.controller.period,
+                     led);
+    }
+    Dataset moved = made.measure(arm.plain, led);
+    moved.folder = recording->folder;
+    moved.table("commands") = *asked.find_table("commands");
+    for (Nanoseconds& t : moved.table("joints").t) t += 340000000;
+    *recording = moved;
+  }
+  const Description late = described(question);
+  int clocks = 0, laws = 0;
+  for (const MeasurementProperty& row : late.measurement) {
+    laws += row.what == "controller" ? 1 : 0;
+    if (row.what != "clock") continue;
+    ++clocks;
+    EXPECT_NEAR(row.value, 0.34, 0.005) << row.unit;
+  }
+  EXPECT_EQ(clocks, 2);
+  EXPECT_GE(laws, 1);
 }
 
 TEST(ClockCorrection, FindsSignsAndUnitsByTheModel) {

@@ -35,6 +35,7 @@ struct LawController {
   double derivative_filter = 0.0, voltage_filter = 0.0;  ///< time constants [s]
   double reference_late = 0.0;                           ///< [s]
   double bend = 0.0;                                     ///< [1/V], as nobody looks for it
+  double voltage_late = 0.0;  ///< by so much its recording is, between two ticks, too [s]
   bool derivative_on_error = false, after_tick = false;
 };
 
@@ -66,6 +67,15 @@ Dataset law_recording(const LawController& how, bool smooth_reference = false) {
     }
   };
   double voltage = 0.0, slow_rate = 0.0;
+  std::vector<double> voltages;
+  const auto recorded = [&](double now) {
+    voltages.push_back(now);
+    const double at = static_cast<double>(voltages.size()) - 1.0 - how.voltage_late / kLawTick;
+    const auto first = static_cast<std::size_t>(std::max(0.0, at));
+    const double share = std::max(0.0, at) - static_cast<double>(first);
+    const std::size_t next = std::min(first + 1, voltages.size() - 1);
+    return (1.0 - share) * voltages[first] + share * voltages[next];
+  };
   for (int tick = 0; tick < 12000; ++tick) {
     const double t = kLawTick * tick;
     if (std::fmod(t + 1e-9, hold) < 1e-6) add(commands, t, {reference(t)});
@@ -83,10 +93,10 @@ Dataset law_recording(const LawController& how, bool smooth_reference = false) {
     law += how.bend * law * std::abs(law);
     voltage += (how.voltage_filter > 0.0 ? kLawTick / (how.voltage_filter + kLawTick) : 1.0) *
                (law - voltage);
+    const double written = recorded(how.after_tick ? voltage : before);
     if (tick % 5 != 3) continue;
     add(muscles, t,
-        {position(t) + noise(1e-3), velocity(t) + noise(0.02), force(t) + noise(0.1),
-         how.after_tick ? voltage : before});
+        {position(t) + noise(1e-3), velocity(t) + noise(0.02), force(t) + noise(0.1), written});
   }
   data.tables = {commands, muscles};
   return data;
@@ -184,6 +194,18 @@ TEST(ControlLaw, FilterOfTheVoltagesIsNoLateVoltage) {
   LawController how;
   how.voltage_filter = 0.02;
   expect_only_law(law_described(how), "voltage filter", 0.02, 0.002);
+}
+
+TEST(ControlLaw, LateVoltagesAreNoFilter) {
+  for (const double late : {0.003, 0.00425}) {
+    LawController how;
+    how.voltage_late = late;
+    const Description description = law_described(how);
+    ASSERT_EQ(description.measurement.size(), 1u) << law_told(description);
+    EXPECT_EQ(description.measurement[0].what, "delay");
+    EXPECT_NEAR(description.measurement[0].value, late, 0.6 * kLawTick);
+    EXPECT_FALSE(description.question.feed);
+  }
 }
 
 TEST(ControlLaw, DerivativeOnErrorIsNamed) {
