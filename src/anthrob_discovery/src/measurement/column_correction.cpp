@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "anthrob_core/text.h"
@@ -89,6 +90,17 @@ Compared measured_and_simulated(const Dataset& recording, const std::optional<Da
   return compared;
 }
 
+/// What all recordings that tell have in common: those that do not are of the same make.
+std::optional<ColumnFactor> common_factor(const std::vector<std::optional<ColumnFactor>>& found) {
+  std::optional<ColumnFactor> common;
+  for (const auto& one : found) {
+    if (!one) continue;
+    if (common && common->factor != one->factor) return {};
+    common = common ? common : one;
+  }
+  return common;
+}
+
 /// Finds, corrects and reports factors of columns.
 class ColumnCorrection {
  public:
@@ -100,18 +112,21 @@ class ColumnCorrection {
   template <typename Comparison>
   void correct(const std::string& column, const std::string& kind, const std::string& against,
                const std::vector<double>& factors, double near, const Comparison& comparison) {
+    std::vector<std::optional<ColumnFactor>> found;  // by recording; nothing: it does not tell
+    for (std::size_t r = 0; r < recordings_.size(); ++r) {
+      const bool has = !recordings_[r]->series(column).empty();
+      const Compared compared = has ? comparison(*recordings_[r], r) : Compared{};
+      found.push_back(column_factor(compared.expected, compared.recorded, factors, near, options_));
+    }
+    const auto other = common_factor(found);
     bool is_told = false;
     for (std::size_t r = 0; r < recordings_.size(); ++r) {
-      Dataset* recording = recordings_[r];
-      if (recording->series(column).empty()) continue;
-      const Compared compared = comparison(*recording, r);
-      const auto found =
-          column_factor(compared.expected, compared.recorded, factors, near, options_);
-      if (!found || found->factor == 1.0) continue;
+      const auto& own = found[r] ? found[r] : other;
+      if (!own || own->factor == 1.0 || recordings_[r]->series(column).empty()) continue;
       divide_columns(
-          *recording, [&](const Column& own) { return own.name == column; }, found->factor);
+          *recordings_[r], [&](const Column& one) { return one.name == column; }, own->factor);
       description_.corrected = true;
-      if (!is_told) tell(column, kind, against, *found);
+      if (!is_told) tell(column, kind, against, *own);
       is_told = true;
     }
   }

@@ -109,6 +109,34 @@ TEST(ColumnCorrection, SignsAndUnitsOfEachColumnAreFoundAndUndone) {
   }
 }
 
+/// The first rows: too few to tell.
+Dataset beginning_of(Dataset recording) {
+  constexpr std::size_t kRows = 100;
+  for (Table& table : recording.tables) {
+    table.t.resize(kRows);
+    for (Column& column : table.columns) column.values.resize(kRows), column.present.resize(kRows);
+  }
+  return recording;
+}
+
+TEST(ColumnCorrection, RecordingsThatDoNotTellAreOfTheSameMake) {
+  const Dataset flipped = flexor(-1.0, 1.0, 1.0, 1.0), right = flexor(1.0, 1.0, 1.0, 1.0);
+  Description description;
+  description.question.train = {flipped};
+  description.question.test = {beginning_of(flipped)};
+  correct_columns(*made_rig(), description);
+  EXPECT_EQ(description.question.test[0].series("flexor/position").values,
+            beginning_of(right).series("flexor/position").values);
+  EXPECT_EQ(description.measurement.size(), 1u);
+  // Where others contradict each other, nobody knows.
+  description = {};
+  description.question.train = {flipped, right};
+  description.question.test = {beginning_of(right)};
+  correct_columns(*made_rig(), description);
+  EXPECT_EQ(description.question.test[0].series("flexor/position").values,
+            beginning_of(right).series("flexor/position").values);
+}
+
 TEST(ColumnCorrection, WhatPhysicsCanMakeIsLeftAlone) {
   for (const double factor : {0.5, 2.0, 3.0}) {
     EXPECT_TRUE(corrected(flexor(1.0, factor, factor, 1.0)).measurement.empty()) << factor;
