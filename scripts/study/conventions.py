@@ -132,7 +132,7 @@ def named(answer, late):
 def judged(asked, result):
     """How the answer by foreign conventions compares with the one by our own."""
     case, answer = asked.case, result["foreign"]
-    late = any(c.kind == "joint" and c.what in ("delay", "average", "filter", "clock") for c in case.conventions)
+    late = any(c.kind == "joint" and c.what in ("delay", "average", "filter", "clock", "drift") for c in case.conventions)
     ours = named(result["own"], False) if case.effect else []
     found = named(answer, late)
     refused = "failed" in answer and any(c.what in ("sign", "unit") for c in case.conventions)
