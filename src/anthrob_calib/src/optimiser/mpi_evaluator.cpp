@@ -1,33 +1,48 @@
 #include "optimiser/mpi_evaluator.h"
 
-#define OMPI_SKIP_MPICXX 1  // the C++ bindings are long dead
-#include <mpi.h>
+#include <cstring>
+#include <string>
 
 namespace anthrob {
 namespace calibration {
 
 namespace {
 
-constexpr int kGoHome = -1;
+std::string bytes_of(const std::vector<double>& numbers) {
+  return {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(double)};
+}
 
-/// Everybody's part of the points, and its fitnesses to rank 0.
+std::vector<double> numbers_in(const std::string& bytes) {
+  std::vector<double> numbers(bytes.size() / sizeof(double));
+  std::memcpy(numbers.data(), bytes.data(), bytes.size());
+  return numbers;
+}
+
+/// How many points there are, then these; empty: there will be none.
+std::string bytes_of(const std::vector<Point>& points) {
+  std::vector<double> numbers = {static_cast<double>(points.size())};
+  for (const Point& point : points) numbers.insert(numbers.end(), point.begin(), point.end());
+  return bytes_of(numbers);
+}
+
+/// Everybody's part of the points, and the fitnesses of all.
 std::vector<double> evaluate_together(const hosts::MpiSession& session, Evaluator& local,
-                                      std::vector<double>& flat, int count, int dimension) {
-  MPI_Bcast(flat.data(), count * dimension, MPI_DOUBLE, 0, MPI_COMM_WORLD);
+                                      const std::string& bytes) {
+  const std::vector<double> numbers = numbers_in(bytes);
+  const auto count = static_cast<std::size_t>(numbers.front());
+  const std::size_t dimension = (numbers.size() - 1) / count;
+  const auto size = static_cast<std::size_t>(session.size());
   std::vector<Point> mine;
-  for (int i = session.rank(); i < count; i += session.size()) {
-    mine.emplace_back(flat.begin() + i * dimension, flat.begin() + (i + 1) * dimension);
+  for (auto i = static_cast<std::size_t>(session.rank()); i < count; i += size) {
+    const auto begin = numbers.begin() + static_cast<std::ptrdiff_t>(1 + i * dimension);
+    mine.emplace_back(begin, begin + static_cast<std::ptrdiff_t>(dimension));
   }
   const std::vector<double> part = mine.empty() ? std::vector<double>{} : local.fitness(mine);
-  std::vector<int> counts(session.size(), 0), offsets(session.size(), 0);
-  for (int i = 0; i < count; ++i) ++counts[i % session.size()];
-  for (int r = 1; r < session.size(); ++r) offsets[r] = offsets[r - 1] + counts[r - 1];
-  std::vector<double> gathered(count);
-  MPI_Gatherv(part.data(), static_cast<int>(part.size()), MPI_DOUBLE, gathered.data(),
-              counts.data(), offsets.data(), MPI_DOUBLE, 0, MPI_COMM_WORLD);
   std::vector<double> fitness(count);
-  for (int i = 0; i < count; ++i) {
-    fitness[i] = gathered[offsets[i % session.size()] + i / session.size()];
+  const std::vector<std::string> all = session.from_all(bytes_of(part));
+  for (std::size_t r = 0; r < size; ++r) {
+    const std::vector<double> own = numbers_in(all[r]);
+    for (std::size_t k = 0; k < own.size(); ++k) fitness[r + k * size] = own[k];
   }
   return fitness;
 }
@@ -35,17 +50,12 @@ std::vector<double> evaluate_together(const hosts::MpiSession& session, Evaluato
 }  // namespace
 
 MpiEvaluator::~MpiEvaluator() {
-  int header[2] = {kGoHome, 0};
-  if (session_.size() > 1) MPI_Bcast(header, 2, MPI_INT, 0, MPI_COMM_WORLD);
+  session_.from_first({});  // nothing more
 }
 
 std::vector<double> MpiEvaluator::fitness(const std::vector<Point>& points) {
   if (session_.size() == 1 || points.size() == 1) return local_.fitness(points);
-  int header[2] = {static_cast<int>(points.size()), static_cast<int>(points.front().size())};
-  MPI_Bcast(header, 2, MPI_INT, 0, MPI_COMM_WORLD);
-  std::vector<double> flat;
-  for (const Point& point : points) flat.insert(flat.end(), point.begin(), point.end());
-  return evaluate_together(session_, local_, flat, header[0], header[1]);
+  return evaluate_together(session_, local_, session_.from_first(bytes_of(points)));
 }
 
 std::vector<std::vector<double>> MpiEvaluator::residuals(const std::vector<Point>& points) {
@@ -54,11 +64,9 @@ std::vector<std::vector<double>> MpiEvaluator::residuals(const std::vector<Point
 
 void serve(const hosts::MpiSession& session, Evaluator& local) {
   for (;;) {
-    int header[2] = {kGoHome, 0};
-    MPI_Bcast(header, 2, MPI_INT, 0, MPI_COMM_WORLD);
-    if (header[0] == kGoHome) return;
-    std::vector<double> flat(static_cast<std::size_t>(header[0]) * header[1]);
-    evaluate_together(session, local, flat, header[0], header[1]);
+    const std::string points = session.from_first({});
+    if (points.empty()) return;
+    evaluate_together(session, local, points);
   }
 }
 

@@ -35,6 +35,14 @@ double Differences::fitness(const Weights& weights) const {
   return weights.posture * posture_square() + weights.force * force_square();
 }
 
+std::vector<double> Differences::force_errors() const {
+  std::vector<double> errors;
+  for (Eigen::Index m = 0; m < force.cols(); ++m) {
+    errors.push_back(force.col(m).cwiseAbs().mean());
+  }
+  return errors;
+}
+
 std::vector<double> Differences::joint_error(const JointModel& joint) const {
   std::vector<double> error;
   for (Eigen::Index row = 0; row < posture.rows(); ++row) {

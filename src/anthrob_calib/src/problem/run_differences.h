@@ -35,6 +35,8 @@ struct Differences {
   double fitness(const Weights& weights) const;
   /// Absolute error of one joint in each row [rad, m].
   std::vector<double> joint_error(const JointModel& joint) const;
+  /// Mean absolute error of each muscle's force [N].
+  std::vector<double> force_errors() const;
 };
 
 /// A part of a run, as the fitness counts it.

@@ -32,12 +32,11 @@ ordered_json errors_json(const MeanErrors& errors, const RobotModel& model) {
 
 /// The muscle with the largest mean error of its force in a run.
 ordered_json worst_muscle(const RunDifferences& run, const RobotModel& model) {
-  const Eigen::MatrixXd& force = run.shown().force;
-  if (force.size() == 0) return nullptr;
-  Eigen::Index worst = 0;
-  const double error = force.cwiseAbs().colwise().mean().maxCoeff(&worst);
-  return {{"name", model.muscles[static_cast<std::size_t>(worst)].name},
-          {"force_N", number(error)}};
+  const std::vector<double> errors = run.shown().force_errors();
+  if (errors.empty()) return nullptr;
+  const auto worst = std::max_element(errors.begin(), errors.end());
+  return {{"name", model.muscles[static_cast<std::size_t>(worst - errors.begin())].name},
+          {"force_N", number(*worst)}};
 }
 
 /// A model that could not be simulated has null.

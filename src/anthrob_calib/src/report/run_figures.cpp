@@ -144,21 +144,11 @@ struct Dumbbells {
   }
 };
 
-/// Mean error of each muscle's force in a run [N].
-std::vector<double> force_errors(const RunDifferences& run) {
-  const Eigen::MatrixXd& force = run.shown().force;
-  std::vector<double> errors;
-  for (Eigen::Index m = 0; m < force.cols(); ++m) {
-    errors.push_back(force.col(m).cwiseAbs().mean());
-  }
-  return errors;
-}
-
 /// Mean over muscles, with a stroke from the least to the largest.
 Line force_line(const std::string& label, const std::vector<RunDifferences>& runs) {
   Line line{label, {}, {}};
   for (std::size_t r = 0; r < runs.size(); ++r) {
-    const std::vector<double> errors = force_errors(runs[r]);
+    const std::vector<double> errors = runs[r].shown().force_errors();
     if (errors.empty()) continue;
     double mean = 0.0;
     for (const double error : errors) mean += error / static_cast<double>(errors.size());
