@@ -56,12 +56,13 @@ std::optional<ColumnFactor> column_factor(const std::vector<double>& expected,
     if (away(factor) < away(nearest)) nearest = factor;
   }
   // A narrower range says that there is nothing between the two columns that physics could change.
-  const bool is_large =
-      near >= options.near.value && std::abs(std::log(nearest)) > std::log(options.large);
-  if (!is_correlated && !is_large) return {};
-  // Physics makes no other sign, whatever the size.
+  const bool by_physics = near >= options.near.value;
+  const bool is_large = by_physics && std::abs(std::log(nearest)) > std::log(options.large);
   const bool is_sign = nearest == 1.0 && found.measured < 0.0;
-  const double most = is_large  ? std::log(options.beside_large)
+  // Physics makes neither a large factor nor another sign.
+  const bool is_coarse = is_large || (by_physics && is_sign);
+  if (!is_correlated && !is_coarse) return {};
+  const double most = is_coarse ? std::log(options.beside_large)
                       : is_sign ? std::log(1.0 + options.near.value)
                                 : std::log(1.0 + near);
   if (away(nearest) > most) return {};

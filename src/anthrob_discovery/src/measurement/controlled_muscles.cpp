@@ -33,6 +33,14 @@ Series velocity_of(const Series& series) {
   return rate;
 }
 
+/// From the nearest row [s].
+double away_from(const Series& series, double time) {
+  const auto next = std::lower_bound(series.t.begin(), series.t.end(), time);
+  const double after = next == series.t.end() ? HUGE_VAL : *next - time,
+               before = next == series.t.begin() ? HUGE_VAL : time - *std::prev(next);
+  return std::min(before, after);
+}
+
 }  // namespace
 
 Interpolated interpolated(const Series& series, double time) {
@@ -95,7 +103,10 @@ void ControlledMuscles::add(const MuscleModel& muscle, const Dataset& recording,
   std::vector<std::size_t> rows;
   for (std::size_t i = 0; i < own.voltage.t.size(); ++i) {
     const double t = own.voltage.t[i];
-    if (t > from && t < to && std::abs(own.voltage.values[i]) < limit) rows.push_back(i);
+    if (!(t > from && t < to && std::abs(own.voltage.values[i]) < limit)) continue;
+    // Far from a measured position, interpolation leaves more than another tick does.
+    if (away_from(own.position, t - muscle.controller.period) > options_.beside) continue;
+    rows.push_back(i);
   }
   // By chance: of regular rows, commands may fall on all or on none.
   const CounterRandom random(1, 17);

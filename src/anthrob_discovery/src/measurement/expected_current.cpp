@@ -13,6 +13,8 @@ Series expected_current(const MuscleModel& muscle, const Dataset& recording, dou
   const Series voltage = recording.series(muscle.name + "/voltage"),
                position = recording.series(muscle.name + "/position");
   if (voltage.empty() || position.empty()) return expected;
+  const double length = position.t.back() - position.t.front();
+  if (length > 2.0 * beside * static_cast<double>(position.t.size())) return expected;
   for (std::size_t i = 0; i < voltage.t.size(); ++i) {
     const double t = voltage.t[i];
     if (t - beside < position.t.front() || t + beside > position.t.back()) continue;

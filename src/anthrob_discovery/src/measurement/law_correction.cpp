@@ -233,7 +233,7 @@ std::optional<ControlLaw> other_law(const ControllerAlgebra& algebra,
   return law;
 }
 
-void go_on_by_other_law(const RobotModel& robot, const ConfigNode& config, const ControlLaw& law,
+bool go_on_by_other_law(const RobotModel& robot, const ConfigNode& config, const ControlLaw& law,
                         Description& description) {
   const ControllerAlgebraOptions& options = description.question.options.measurement.controller;
   LawReport report(options, description);
@@ -250,6 +250,7 @@ void go_on_by_other_law(const RobotModel& robot, const ConfigNode& config, const
                                     : go_on_behind_controllers(robot, description);
   description.remarks.push_back("controller: the voltages follow another law than the model's: " +
                                 joined(report.words(), "; ") + ". " + goes_on);
+  return gains && gains->empty();
 }
 
 void remark_on_voltages(const ControllerAlgebra& algebra, const std::optional<StampShift>& shift,

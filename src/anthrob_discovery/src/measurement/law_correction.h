@@ -17,7 +17,8 @@ std::optional<ControlLaw> other_law(const ControllerAlgebra& algebra,
 /// Reports the law, and lets the search go on: with its gains, if these are all that is other; else
 /// from positions, or from voltages where positions leave nothing to be compared.
 /// @param config of the model file
-void go_on_by_other_law(const RobotModel& robot, const ConfigNode& config, const ControlLaw& law,
+/// @return whether the recordings now follow the model's law
+bool go_on_by_other_law(const RobotModel& robot, const ConfigNode& config, const ControlLaw& law,
                         Description& description);
 
 /// Where no law is found: what is late, or that the law is unknown.

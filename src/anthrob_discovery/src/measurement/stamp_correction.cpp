@@ -52,6 +52,16 @@ void correct_one_by_one(const RobotModel& robot, const std::vector<Dataset*>& re
   }
 }
 
+/// One shift that all recordings share.
+void correct_shift(const RobotModel& robot, const ControllerAlgebra& algebra,
+                   const StampShift& shift, Description& description) {
+  report_shift(shift, description);
+  const std::vector<Dataset*> recordings = recordings_of(description.question);
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    if (algebra.helps(shift, r)) correct(robot, shift, *recordings[r], description);
+  }
+}
+
 }  // namespace
 
 void correct_controller_stamps(const RobotModel& robot, const ConfigNode& config,
@@ -59,24 +69,31 @@ void correct_controller_stamps(const RobotModel& robot, const ConfigNode& config
   Question& question = description.question;
   const ControllerAlgebraOptions& options = question.options.measurement.controller;
   const std::vector<Dataset*> recordings = recordings_of(question);
-  const ControllerAlgebra algebra(robot, {recordings.begin(), recordings.end()}, options);
-  if (!algebra.is_known()) return;
-  const auto shift = algebra.stamp_shift();
-  if (const auto law = other_law(algebra, shift)) {
-    go_on_by_other_law(robot, config, *law, description);
-    return;
-  }
-  if (shift) {
-    report_shift(*shift, description);
-    for (std::size_t r = 0; r < recordings.size(); ++r) {
-      if (algebra.helps(*shift, r)) correct(robot, *shift, *recordings[r], description);
+  const auto as_they_are = [&] {
+    return ControllerAlgebra(robot, {recordings.begin(), recordings.end()}, options);
+  };
+  std::set<LateStamp> corrected;
+  bool is_other_law = false;
+  std::optional<StampShift> rest;  // that rounding to ticks left of the last one
+  for (;;) {
+    const ControllerAlgebra algebra = as_they_are();
+    if (!algebra.is_known()) return;
+    const auto shift = algebra.stamp_shift();
+    if (const auto law = other_law(algebra, shift ? shift : rest)) {
+      if (is_other_law || !go_on_by_other_law(robot, config, *law, description)) return;
+      is_other_law = true;
+      continue;
     }
-    remark_on_voltages(algebra, shift, description);
-    return;
+    // Measurements may be late, and voltages logged after the tick.
+    if (!shift || !corrected.insert(shift->what).second) break;
+    correct_shift(robot, algebra, *shift, description);
+    if (shift->what == LateStamp::kReference) break;
+    rest = shift;
+    rest->late = 0.0;
   }
-  correct_one_by_one(robot, recordings, options, description);
-  // As they are now.
-  remark_on_voltages({robot, {recordings.begin(), recordings.end()}, options}, {}, description);
+  if (corrected.empty() && !is_other_law)
+    correct_one_by_one(robot, recordings, options, description);
+  remark_on_voltages(as_they_are(), {}, description);
 }
 
 }  // namespace discovery

@@ -98,17 +98,16 @@ struct SoundnessOptions {
 
 /// Joints that were stamped by another clock than their muscles.
 struct ClockOptions {
-  double bin = 0.05;          ///< [s] lags are multiples of it: 0.1 s may explain far less
-  double longest_lag = 5.0;   ///< [s] that is tried
-  Share share_of_time = 0.3;  ///< of the recording, by which it may be shifted
-  double fold = 1.0;          ///< [s] fitted and judged in turn
-  Share ridge = 1e-3;         ///< of the diagonal; rates of antagonists are much alike
-  double most_work = 4e7;     ///< products for one lag
-  int most_bins = 6000;       ///< of a recording
-  double least_turn = 0.02;   ///< [rad or m] of a motor or joint that moves
-  double least_force = 0.5;   ///< [N] of a tendon whose force changes
-  /// [s] lag of real sensors, and a little more: `mocap_delay` may be 0.2 s
-  double plausible = 0.25;
+  double bin = 0.05;               ///< [s] lags are multiples of it: 0.1 s may explain far less
+  double longest_lag = 5.0;        ///< [s] that is tried
+  Share share_of_time = 0.3;       ///< of the recording, by which it may be shifted
+  double fold = 1.0;               ///< [s] fitted and judged in turn
+  Share ridge = 1e-3;              ///< of the diagonal; rates of antagonists are much alike
+  double most_work = 4e7;          ///< products for one lag
+  int most_bins = 6000;            ///< of a recording
+  double least_turn = 0.02;        ///< [rad or m] of a motor or joint that moves
+  double least_force = 0.5;        ///< [N] of a tendon whose force changes
+  double plausible = 0.2;          ///< [s] lag of real sensors, as of `mocap_delay`
   Share explains = 0.6;            ///< least share of the squares at the other lag
   Share clearly = 0.5;             ///< of what a plausible lag leaves unexplained, at most
   double few_movements = 2.5;      ///< fewer are not examined

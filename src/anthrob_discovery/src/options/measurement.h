@@ -35,6 +35,7 @@ struct ControllerAlgebraOptions {
   double block = 2.0;             ///< [s] taken as independent of the others
   std::size_t fewest_blocks = 4;  ///< for a standard error
   std::size_t most_rows = 20000;  ///< of all muscles and recordings together
+  double beside = 0.003;          ///< [s] from a measured position, at most
   double sure = 4.0;              ///< standard errors by which a shift is better than none
   double clearly = 2.0;           ///< standard errors by which it is better than another cause
   double interval = 1.96;         ///< standard errors to either side, for 95 %
@@ -59,6 +60,7 @@ struct ControllerAlgebraOptions {
     visit("block", options.block);
     visit("fewest_blocks", options.fewest_blocks);
     visit("most_rows", options.most_rows);
+    visit("beside", options.beside);
     visit("sure", options.sure);
     visit("clearly", options.clearly);
     visit("interval", options.interval);
@@ -83,11 +85,11 @@ struct ColumnOptions {
   /// by which the multiple may differ from a factor between units: more than errors of a motor's
   /// resistance or a reference that is hardly followed
   Share near = 0.4;
-  /// the same for factors that are `large`: what a model lacks spoils the correlation, and a joint
-  /// at rest has none
+  /// the same for another sign and factors that are `large`: what a model lacks spoils the
+  /// correlation, and a joint at rest has none
   Share hardly_correlated = 0.25;
   double large = 30.0;        ///< a factor that no physics makes, or one over it
-  double beside_large = 5.0;  ///< factor by which the multiple may be off a large one
+  double beside_large = 5.0;  ///< factor by which the multiple may be off a large one, or off -1
   std::size_t rows = 10;      ///< over which a velocity is integrated
   double beside = 0.01;       ///< [s] to either side, for the velocity of a current's expectation
   std::size_t blocks = 8;     ///< for a standard error

@@ -73,6 +73,29 @@ TEST(ClockCorrection, PutsClocksOfJointsRight) {
   EXPECT_TRUE(late.corrected);
 }
 
+TEST(ClockCorrection, OfAJointInOtherUnits) {
+  const Question right = arm_question();
+  Question wrong = right;
+  for (Dataset* recording : recordings_of(wrong)) {
+    Table& joints = recording->table("joints");
+    for (Nanoseconds& t : joints.t) t += 430000000;
+    for (Column& column : joints.columns) {
+      if (column.name != "elbow/position") continue;
+      for (double& value : column.values) value *= 0.001;
+    }
+  }
+  const Description description = described(wrong);
+  int units = 0, clocks = 0;
+  for (const MeasurementProperty& row : description.measurement) {
+    units += row.what == "unit" ? 1 : 0, clocks += row.what == "clock" ? 1 : 0;
+  }
+  EXPECT_EQ(units, 1);
+  EXPECT_EQ(clocks, 2);
+  const Series is = description.question.test[0].series("elbow/position"),
+               should = right.test[0].series("elbow/position");
+  for (double t = 2.0; t < 28.0; t += 0.37) EXPECT_NEAR(is.at(t), should.at(t), 0.02) << t;
+}
+
 TEST(ClockCorrection, GoesByTheLawThatTheRobotFollows) {
   const Arm arm;
   Question question = arm_question();

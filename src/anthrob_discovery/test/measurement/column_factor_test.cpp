@@ -40,6 +40,8 @@ TEST(ColumnFactor, WhatAModelLacksDoesNotHideALargeOne) {
     EXPECT_NEAR(found->measured, sign * 400.0, 50.0);
   }
   EXPECT_EQ(half_alike(0.003).factor(near)->factor, 0.001);
+  // Neither makes it another sign.
+  EXPECT_EQ(half_alike(-0.6).factor(near)->factor, -1.0);
   // Physics may make this, and this is neither.
   EXPECT_FALSE(half_alike(0.4).factor(near));
   EXPECT_FALSE(half_alike(5.0).factor(near));
@@ -47,6 +49,7 @@ TEST(ColumnFactor, WhatAModelLacksDoesNotHideALargeOne) {
 
 TEST(ColumnFactor, WhereNothingIsBetweenTheColumnsItIsExact) {
   EXPECT_FALSE(half_alike(400.0).factor(ColumnOptions{}.exactly));
+  EXPECT_FALSE(half_alike(-1.0).factor(ColumnOptions{}.exactly));
 }
 
 TEST(ColumnFactor, AJointAtRestHasNone) {

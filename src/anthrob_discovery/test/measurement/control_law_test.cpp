@@ -35,6 +35,7 @@ struct LawController {
   double derivative_filter = 0.0, voltage_filter = 0.0;  ///< time constants [s]
   double reference_late = 0.0;                           ///< [s]
   double bend = 0.0;                                     ///< [1/V], as nobody looks for it
+  double position_late = 0.0;                            ///< stamps, and those of velocities [s]
   double voltage_late = 0.0;  ///< by so much its recording is, between two ticks, too [s]
   bool derivative_on_error = false, after_tick = false;
 };
@@ -96,7 +97,8 @@ Dataset law_recording(const LawController& how, bool smooth_reference = false) {
     const double written = recorded(how.after_tick ? voltage : before);
     if (tick % 5 != 3) continue;
     add(muscles, t,
-        {position(t) + noise(1e-3), velocity(t) + noise(0.02), force(t) + noise(0.1), written});
+        {position(t - how.position_late) + noise(1e-3),
+         velocity(t - how.position_late) + noise(0.02), force(t) + noise(0.1), written});
   }
   data.tables = {commands, muscles};
   return data;
@@ -242,6 +244,32 @@ TEST(ControlLaw, ALawAfterTheTickIsBoth) {
   EXPECT_TRUE(std::any_of(description.measurement.begin(), description.measurement.end(),
                           [](const auto& row) { return row.what == "tick_phase"; }))
       << law_told(description);
+}
+
+/// The row of such a property, alone.
+const MeasurementProperty* row_of(const Description& description, const std::string& what) {
+  const auto row = std::find_if(description.measurement.begin(), description.measurement.end(),
+                                [&](const auto& one) { return one.what == what; });
+  return row == description.measurement.end() ? nullptr : &*row;
+}
+
+TEST(ControlLaw, LatePositionsShowAlsoBesideAnotherConvention) {
+  for (const bool after_tick : {true, false}) {
+    LawController how;
+    how.position_late = after_tick ? 0.018 : 0.003;
+    how.after_tick = after_tick;
+    how.derivative_on_error = !after_tick;
+    const Description description = law_described(how, true);
+    ASSERT_EQ(description.measurement.size(), 2u) << law_told(description);
+    ASSERT_NE(row_of(description, "delay"), nullptr) << law_told(description);
+    EXPECT_NEAR(row_of(description, "delay")->value, how.position_late, 0.6 * kLawTick);
+    EXPECT_NE(row_of(description, after_tick ? "tick_phase" : "controller"), nullptr);
+    EXPECT_FALSE(description.question.feed);
+    const auto left = [&](const Dataset& recording) {
+      return ControllerAlgebra(*law_rig(), {&recording}, law_rows()).left({});
+    };
+    EXPECT_LT(left(description.question.train[0]), 0.1 * left(law_recording(how, true)));
+  }
 }
 
 TEST(ControlLaw, LateReferencesKeepTheControllers) {

@@ -21,6 +21,7 @@ struct Conventions {
   double seen_late = 0.0;         ///< until the controller gets measurements [s]
   double other_derivative = 1.0;  ///< gain of the robot over that of the model
   bool after_tick = false;        ///< voltages, not before it
+  double camera = 0.0;            ///< period of positions and velocities, if not that of rows [s]
 };
 
 std::shared_ptr<const RobotModel> rig() {
@@ -86,8 +87,26 @@ Dataset record(const Conventions& how) {
   return data;
 }
 
+/// What is measured of positions only so often, anywhere between rows.
+void take_positions(Dataset& data, double period) {
+  Table seen;
+  seen.name = "positions";
+  seen.column("flexor/position"), seen.column("flexor/velocity");
+  for (double t = 0.0013; t < 9.99; t += period) {
+    seen.t.push_back(static_cast<Nanoseconds>(std::llround(1e9 * t)));
+    for (Column& column : seen.columns) {
+      column.values.push_back(column.quantity() == "position" ? position(t) : velocity(t));
+      column.present.push_back(1);
+    }
+  }
+  Table& muscles = data.table("muscles");
+  muscles.columns.erase(muscles.columns.begin(), muscles.columns.begin() + 2);
+  data.tables.push_back(seen);
+}
+
 std::optional<StampShift> shift_in(const Conventions& how) {
-  const Dataset recording = record(how);
+  Dataset recording = record(how);
+  if (how.camera > 0.0) take_positions(recording, how.camera);
   const ControllerAlgebra algebra(*rig(), {&recording}, few_rows());
   EXPECT_TRUE(algebra.is_known());
   return algebra.stamp_shift();
@@ -107,6 +126,14 @@ TEST(ControllerAlgebra, NothingIsFoundInWhatTheModelsSensorsWrite) {
 
 TEST(ControllerAlgebra, VoltagesAfterTheTickAreOneTickEarly) {
   Conventions how;
+  how.after_tick = true;
+  expect_shift(how, LateStamp::kVoltage, -kTick);
+}
+
+TEST(ControllerAlgebra, PositionsThatAreSeldomMeasuredMakeNoShift) {
+  Conventions how;
+  how.camera = 0.0547;
+  EXPECT_FALSE(shift_in(how));
   how.after_tick = true;
   expect_shift(how, LateStamp::kVoltage, -kTick);
 }

@@ -25,7 +25,8 @@ double current_behind_filter(double t, double tau) {
 }
 
 /// The rig's flexor, whose resistance is 20 % larger than its model's.
-Description described(const std::function<double(double)>& measured) {
+/// @param beside rows between two measured positions
+Description described(const std::function<double(double)>& measured, int beside = 1) {
   static const auto robot = load_robot_model(kConfig + "/two_muscle_rig/model_I.yaml");
   const auto& motor = dynamic_cast<const DcMotor&>(*robot->muscles[0].actuator).parameters();
   const CounterRandom random(3, 1);
@@ -42,7 +43,9 @@ Description described(const std::function<double(double)>& measured) {
         1.2 * motor.resistance * current(t) + motor.back_emf_constant * motor.ratio * v};
     muscles.t.push_back(static_cast<Nanoseconds>(i) * 5000000);
     for (std::size_t k = 0; k < 3; ++k) {
-      muscles.columns[k].values.push_back(values[k]), muscles.columns[k].present.push_back(1);
+      const bool present = k > 0 || i % beside == 0;
+      muscles.columns[k].values.push_back(present ? values[k] : NAN);
+      muscles.columns[k].present.push_back(present ? 1 : 0);
     }
   }
   Description description;
@@ -65,6 +68,12 @@ TEST(CurrentCorrection, LeavesRightCurrentsAlone) {
   const Description description = described(current);
   EXPECT_FALSE(description.corrected);
   EXPECT_TRUE(description.measurement.empty());
+}
+
+TEST(CurrentCorrection, NeedsVelocities) {
+  const auto late = [](double t) { return current(t - 0.012); };
+  EXPECT_FALSE(described(late).measurement.empty());
+  EXPECT_TRUE(described(late, 11).measurement.empty());
 }
 
 TEST(CurrentCorrection, MovesWhatIsLate) {
