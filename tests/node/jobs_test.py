@@ -18,7 +18,8 @@ import roslib.packages
 import rospy
 import rostest
 from actionlib_msgs.msg import GoalStatus
-from anthrob_msgs.msg import CalibrateAction, CalibrateActionResult, CalibrateGoal, DiscoverAction, DiscoverGoal
+from anthrob_msgs.msg import (CalibrateAction, CalibrateActionResult, CalibrateGoal, DiscoverAction, DiscoverGoal, Health, HealthTestAction,
+                              HealthTestGoal)
 
 from discover_test import record
 from waiting import wait_for
@@ -108,8 +109,8 @@ class Jobs(unittest.TestCase):
     def setUp(self):
         self.start_node()
 
-    def start_node(self, *before):
-        self.node = subprocess.Popen([*before, program('anthrob_calib', 'anthrob_calibrator'), '__ns:=' + ROBOT])
+    def start_node(self, *parameters, before=()):
+        self.node = subprocess.Popen([*before, program('anthrob_calib', 'anthrob_calibrator'), '__ns:=' + ROBOT, *parameters])
         self.addCleanup(self.end_node, self.node)
         self.calibrator = actionlib.SimpleActionClient(ROBOT + '/calibrate', CalibrateAction)
         self.discoverer = actionlib.SimpleActionClient(ROBOT + '/discover', DiscoverAction)
@@ -194,6 +195,34 @@ class Jobs(unittest.TestCase):
             self.assertIn(' --resume\n', log.read())
         self.expect_as_uninterrupted('cancelled')
 
+    def test_health_is_told_and_tested_by_a_program_of_its_own(self):
+        history = self.path('health')
+        os.makedirs(history)
+        with open(os.path.join(history, 'health.csv'), 'w') as file:
+            file.write('time,muscle,quantity,value,low,high,unit\n')
+            for day in range(1, 21):
+                stiffness = 1000.0 + day % 2 - 20.0 * max(0, day - 10)
+                file.write('2026-11-%02d,flexor,stiffness,%g,990,1010,N/m\n' % (day, stiffness))
+        self.end_node(self.node)
+        self.start_node('_health:=' + history)
+        told = rospy.wait_for_message(ROBOT + '/health', Health, 30)
+        self.assertEqual((told.muscle, told.quantity, told.unit), (['flexor'], ['stiffness'], ['N/m']))
+        self.assertRegex(told.warning[0], r'^flexor: its spring or tendon has become softer.*stiffness -1\d(\.\d)? %.* in .* days$')
+        self.assertTrue(told.header.frame_id)
+        client = actionlib.SimpleActionClient(ROBOT + '/health/test', HealthTestAction)
+        self.assertTrue(client.wait_for_server(rospy.Duration(30)))
+        self.send(HealthTestGoal(), client)
+        state, result = self.finish(client)
+        self.assertEqual(state, GoalStatus.REJECTED)
+        self.assertIn('model: missing', result.headline)
+        # Nobody is there to be tested; meanwhile it goes first, as it commands.
+        self.send(HealthTestGoal(model='two_muscle_rig/I'), client)
+        wait_for(lambda: self.feedback, PATIENCE, 'feedback')
+        self.assertEqual(os.getpriority(os.PRIO_PROCESS, self.child()), os.getpriority(os.PRIO_PROCESS, self.node.pid))
+        client.cancel_goal()
+        state, result = self.finish(client)
+        self.assertEqual(state, GoalStatus.PREEMPTED, result)
+
     def test_killed_program(self):
         self.send(self.calibration('killed'))
         self.wait_until_underway()
@@ -255,7 +284,7 @@ class Jobs(unittest.TestCase):
         if subprocess.run([*inside, 'true'], stderr=subprocess.DEVNULL).returncode:
             self.skipTest('no file system can be mounted here')
         self.end_node(self.node)
-        self.start_node(*inside)
+        self.start_node(before=inside)
         self.send(self.calibration('small/fit'))
         state, result = self.finish()
         self.assertEqual(state, GoalStatus.ABORTED, result)

@@ -16,7 +16,7 @@ import rostest
 BRINGUP = rospkg.RosPack().get_path('anthrob_bringup')
 CONFIG = os.path.join(BRINGUP, 'config', 'anthrob')
 NODES = {
-    'anthrob_calib': ['anthrob_calibrator'],
+    'anthrob_calib': ['anthrob_calibrator', 'anthrob_health_test'],
     'anthrob_sim': ['anthrob_simulator', 'anthrob_tendons'],
     'anthrob_driver': ['anthrob_driver'],
     'anthrob_control': ['anthrob_computed_force', 'anthrob_hold_posture', 'anthrob_posture_player'],
@@ -70,7 +70,7 @@ class Parameters(unittest.TestCase):
                 if kind in known:
                     seen.add(kind)
                     self.assertLessEqual({p.get('name') for p in node.iter('param')}, known[kind], file)
-        self.assertEqual(set(known) - seen, {('anthrob_control', 'anthrob_hold_posture')})
+        self.assertEqual(set(known) - seen, {('anthrob_control', 'anthrob_hold_posture'), ('anthrob_calib', 'anthrob_health_test')})
 
     def test_misspelt(self):
         done = run('anthrob_sim', 'anthrob_simulator', ('model', os.path.join(CONFIG, 'model_I.yaml')), ('ratee', '2'))
@@ -119,6 +119,10 @@ class Parameters(unittest.TestCase):
         self.check('anthrob_calib', 'anthrob_calibrator', [('model', os.path.join(CONFIG, 'model_I.yaml'))],
                    [('feed', 'torques'), ('feed', '1'), ('rate', '0'), ('warn', 'much'), ('settle', '-1'),
                     ('largest_gap', '.nan'), ('floors', '3'), ('model', '7')])
+
+    def test_health_test(self):
+        self.check('anthrob_calib', 'anthrob_health_test', [('model', os.path.join(CONFIG, 'model_I.yaml')), ('out', '/tmp/health')],
+                   [('largest_turn', '0'), ('lock_step', 'yes'), ('out', 'here')])
 
     def test_simulator(self):
         self.check('anthrob_sim', 'anthrob_simulator', [('model', os.path.join(CONFIG, 'model_I.yaml'))],

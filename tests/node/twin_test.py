@@ -105,9 +105,9 @@ class Twin(unittest.TestCase):
         published, _, services = rosgraph.Master('/twin_test').getSystemState()
         own = {topic for topic, nodes in published if node in nodes}
         states = {'/two_muscle_rig/twin/' + name for name in ('muscle_states', 'joint_states', 'spherical_joint_states')}
-        jobs = {f'/two_muscle_rig/{job}/{topic}' for job in ('calibrate', 'discover')
+        jobs = {f'/two_muscle_rig/{job}/{topic}' for job in ('calibrate', 'discover', 'health/test')
                 for topic in ('feedback', 'result', 'status')}
-        self.assertEqual(own - {'/rosout'}, states | jobs | {'/two_muscle_rig/gap', '/tf', '/diagnostics'})
+        self.assertEqual(own - {'/rosout'}, states | jobs | {'/two_muscle_rig/gap', '/two_muscle_rig/health', '/tf', '/diagnostics'})
         self.assertEqual({s for s, nodes in services if node in nodes},
                          {node + '/get_loggers', node + '/set_logger_level', '/two_muscle_rig/predict', '/two_muscle_rig/twin/take_model'})
 

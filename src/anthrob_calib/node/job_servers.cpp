@@ -32,14 +32,22 @@ jobs::DiscoverOrder order_of(const anthrob_msgs::DiscoverGoal& goal) {
   return order;
 }
 
+jobs::HealthOrder order_of(const anthrob_msgs::HealthTestGoal& goal, jobs::HealthOrder usual) {
+  if (!goal.model.empty()) usual.model = goal.model;
+  if (!goal.out.empty()) usual.out = goal.out;
+  return usual;
+}
+
 }  // namespace
 
-JobServers::JobServers(const ros::NodeHandle& nh)
+JobServers::JobServers(const ros::NodeHandle& nh, const jobs::HealthOrder& usual)
     : calibrate_(
           nh, "calibrate",
           [](const anthrob_msgs::CalibrateGoal& goal) { return command_of(order_of(goal)); }),
       discover_(nh, "discover",
-                [](const anthrob_msgs::DiscoverGoal& goal) { return command_of(order_of(goal)); }) {
-}
+                [](const anthrob_msgs::DiscoverGoal& goal) { return command_of(order_of(goal)); }),
+      health_(nh, "health/test", [usual](const anthrob_msgs::HealthTestGoal& goal) {
+        return command_of(order_of(goal, usual));
+      }) {}
 
 }  // namespace anthrob

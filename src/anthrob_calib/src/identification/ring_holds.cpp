@@ -10,8 +10,8 @@ namespace identification {
 
 namespace {
 
-constexpr double kSteady = 0.02;   ///< of the travel: a controller settles, an encoder counts
-constexpr double kShortest = 0.5;  ///< [s]
+constexpr double kSteadyHold = 0.02;   ///< of the travel: a controller settles, an encoder counts
+constexpr double kShortestHold = 0.5;  ///< [s]
 
 /// First row that has left the range of those from `begin` on.
 std::size_t end_of_steady(const std::vector<double>& position, std::size_t begin, double range) {
@@ -32,10 +32,10 @@ std::vector<RingHold> find_holds(const std::vector<double>& t,
   std::vector<RingHold> holds;
   if (position.empty()) return holds;
   const auto [low, high] = std::minmax_element(position.begin(), position.end());
-  const double range = kSteady * (*high - *low);
+  const double range = kSteadyHold * (*high - *low);
   for (std::size_t begin = 0; begin < position.size();) {
     const std::size_t end = end_of_steady(position, begin, range);
-    if (t[end - 1] - t[begin] < kShortest) {
+    if (t[end - 1] - t[begin] < kShortestHold) {
       ++begin;
       continue;
     }

@@ -97,6 +97,7 @@ struct Start {
   char* const* arguments;
   char* const* environment;
   int input, log, progress, failure;
+  bool gives_way;
 };
 
 /// Tells the parent why.
@@ -128,7 +129,7 @@ void give_way() {
   sigset_t none;
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
-  give_way();
+  if (start.gives_way) give_way();
   const bool placed = dup2(start.input, STDIN_FILENO) >= 0 && dup2(start.log, STDOUT_FILENO) >= 0 &&
                       dup2(start.log, STDERR_FILENO) >= 0 && dup2(start.progress, kProgress) >= 0 &&
                       dup3(start.failure, kFailure, O_CLOEXEC) >= 0;
@@ -144,7 +145,8 @@ void give_way() {
 
 }  // namespace
 
-ChildProcess::ChildProcess(const std::vector<std::string>& command, const std::string& log) {
+ChildProcess::ChildProcess(const std::vector<std::string>& command, const std::string& log,
+                           bool gives_way) {
   std::vector<std::string> words = command;
   std::vector<std::string> settings =
       environment_with(tool::progress_lines::kVariable, std::to_string(kProgress));
@@ -152,8 +154,8 @@ ChildProcess::ChildProcess(const std::vector<std::string>& command, const std::s
   const Descriptor input(opened("/dev/null", O_RDONLY));
   const Descriptor output(opened(log, O_WRONLY | O_CREAT | O_APPEND));
   Pipe progress, failure;
-  const Start start{getpid(),     arguments.data(),     environment.data(), input.get(),
-                    output.get(), progress.write.get(), failure.write.get()};
+  const Start start{getpid(),     arguments.data(),     environment.data(),  input.get(),
+                    output.get(), progress.write.get(), failure.write.get(), gives_way};
   pid_ = fork();
   if (pid_ < 0) throw std::runtime_error(command[0] + ": " + strerror(errno));
   if (pid_ == 0) become(start);

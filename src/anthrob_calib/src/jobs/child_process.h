@@ -16,7 +16,8 @@ struct ProcessEnd {
 };
 
 /// A program that runs beside this one, in a process group of its own, without input, with
-/// everything that it prints in a log file, and with lower priority. It inherits no open file.
+/// everything that it prints in a log file, and, if asked, with lower priority. It inherits no open
+/// file.
 ///
 /// It gets SIGINT, as by Ctrl-C, when this process ends, however that ends: the kernel sends it
 /// when the thread that made this object ends. So that must be a thread that lives as long as the
@@ -27,8 +28,10 @@ class ChildProcess {
 
   /// @param command program, as a path, and its arguments
   /// @param log what is printed goes to the end of this file
+  /// @param gives_way with lower priority
   /// @throws std::runtime_error with one line: the log cannot be written, the program not started
-  ChildProcess(const std::vector<std::string>& command, const std::string& log);
+  ChildProcess(const std::vector<std::string>& command, const std::string& log,
+               bool gives_way = true);
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;

@@ -17,8 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// What people look at, of whichever program.
-constexpr const char* kFiles[] = {"report.html", "model.yaml", "result.json", "report.json",
-                                  "pipeline.json"};
+constexpr const char* kFiles[] = {"report.html", "model.yaml", "result.json",  "report.json",
+                                  "health.html", "health.csv", "pipeline.json"};
 
 /// As one types it into a shell.
 std::string typed(const std::vector<std::string>& words) {
@@ -66,7 +66,7 @@ Job::Job(const JobCommand& command)
       log_(log_of(command)),
       before_(written()),
       log_begin_(begin_log(out_, log_, words_of(command))),
-      process_(words_of(command), log_) {}
+      process_(words_of(command), log_, !command.commands_robot) {}
 
 Job::Times Job::written() const {
   Times times;

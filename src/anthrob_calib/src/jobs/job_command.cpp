@@ -159,5 +159,17 @@ JobCommand command_of(const DiscoverOrder& order) {
   return command;
 }
 
+JobCommand command_of(const HealthOrder& order) {
+  require_given("model", !order.model.empty(), "a model of the robot");
+  require_given("out", !order.out.empty(), "a folder for the robot's history");
+  require_model(order.model);
+  require_whole("out", order.out);
+  return {"anthrob_calib",
+          "anthrob_health_test",
+          {"_model:=" + order.model, "_out:=" + order.out, "__ns:=" + order.robot},
+          order.out,
+          true};
+}
+
 }  // namespace jobs
 }  // namespace anthrob

@@ -23,11 +23,18 @@ struct DiscoverOrder {
   std::vector<std::string> options;
 };
 
+/// A test of a robot's tendons: the node anthrob_health_test.
+struct HealthOrder {
+  std::string model, out;
+  std::string robot;  ///< namespace
+};
+
 /// A program with its arguments, which writes into a folder.
 struct JobCommand {
   std::string package, program;
   std::vector<std::string> arguments;
   std::string out;
+  bool commands_robot = false;  ///< and so gives way to nobody
 };
 
 /// Continues what lies in `out`, if a calibration was interrupted there.
@@ -35,6 +42,7 @@ struct JobCommand {
 /// working folder that nobody chose), an option that a field has already
 JobCommand command_of(const CalibrateOrder& order);
 JobCommand command_of(const DiscoverOrder& order);
+JobCommand command_of(const HealthOrder& order);
 
 }  // namespace jobs
 }  // namespace anthrob
