@@ -145,6 +145,16 @@ auto ResultFile<Scalar>::find(std::uint64_t key) const -> std::optional<Result> 
 
 template <class Scalar>
 void ResultFile<Scalar>::append(std::uint64_t key, const Result& result) {
+  const auto offset_of = [&] {
+    const auto known = places_.find(key);
+    return known == places_.end() ? std::int64_t{-1} : known->second.offset;
+  };
+  std::int64_t broken = -1;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    broken = offset_of();
+  }
+  if (broken >= 0 && find(key)) return;
   const auto count = static_cast<Word>(result.size());
   std::vector<char> record(static_cast<std::size_t>(record_size<Scalar>(count)));
   const Word head[] = {key, count}, sum = sum_of(key, result.data(), count);
@@ -152,6 +162,7 @@ void ResultFile<Scalar>::append(std::uint64_t key, const Result& result) {
   if (count > 0) std::memcpy(record.data() + kHead, result.data(), count * sizeof(Scalar));
   std::memcpy(record.data() + record.size() - sizeof(sum), &sum, sizeof(sum));
   const std::lock_guard<std::mutex> lock(mutex_);
+  if (offset_of() != broken) return;  // another thread was faster
   if (end_ == 0) begin();
   if (!write_all(descriptor_, record.data(), record.size(), end_)) fail(file_);
   places_[key] = {end_, count};

@@ -56,6 +56,17 @@ TEST_F(JournalTest, KnowsResultsBitForBitAfterwards) {
   EXPECT_EQ(journal.find(15, kRun).value(), result(4.0));
 }
 
+TEST_F(JournalTest, WhatTwoThreadsHaveSimulatedIsNotPackedByItself) {
+  Journal journal(file_, kContext);
+  journal.append(11, kRun, result(1.0));
+  journal.append(12, kRun, result(1.0, 2.0));
+  const auto size = fs::file_size(file_);
+  journal.append(12, kRun, result(1.0, 2.0));  // a thread that was slower
+  EXPECT_EQ(fs::file_size(file_), size);
+  journal.append(13, kRun, result(1.0, 4.0));
+  EXPECT_EQ(journal.find(12, kRun).value(), result(1.0, 2.0));
+}
+
 TEST_F(JournalTest, PacksResultsByAnEarlierOne) {
   const auto much = 20000u * 2, little = much / 4;
   const auto append = [&](Journal& journal, std::uint64_t key, const Eigen::VectorXf& numbers) {

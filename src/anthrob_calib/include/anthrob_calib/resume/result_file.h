@@ -38,6 +38,7 @@ class ResultFile {
   /// Whether the file had another context, so that its results do not count.
   bool begun_anew() const { return begun_anew_; }
   std::optional<Result> find(std::uint64_t key) const;
+  /// What it holds already stays: others may be packed by it.
   void append(std::uint64_t key, const Result& result);
   /// Deletes the file, once it is no longer needed.
   void remove();
