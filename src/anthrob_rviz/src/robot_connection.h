@@ -23,6 +23,7 @@ struct News {
   std::vector<MuscleGroup> antagonists;  ///< once, soon after connect()
   std::optional<PlayerReading> player;   ///< the newest, where a recording is played
   std::optional<GapReading> gap;         ///< the newest, where a twin runs
+  std::optional<HealthReading> health;   ///< the newest, after a test of the tendons
   std::vector<JobReading> jobs;          ///< of the calibration node
 };
 
@@ -52,7 +53,7 @@ class RobotConnection {
   virtual bool call(const ServiceRequest& request) = 0;
   /// A stop that asks for no answer, for when the service gives none: the topic emergency_stop.
   virtual void shout_stop() = 0;
-  /// Asks a job of the calibration node, "calibrate" or "discover", to end with what it has.
+  /// Asks a job of the calibration node (JobReading::job) to end with what it has.
   virtual void cancel(const std::string& job) = 0;
   /// The simulator's services are there.
   virtual bool simulated() const = 0;

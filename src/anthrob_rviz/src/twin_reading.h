@@ -28,9 +28,15 @@ std::vector<OwnerGap> gaps_by_owner(const GapReading& reading, std::size_t windo
 /// Below two floors a model may be right; from four on the twin warns.
 Level level_of_gap(double floors);
 
+/// The state of the tendons after the last test.
+struct HealthReading {
+  std::string headline;               ///< "11 tendons: nothing has changed"
+  std::vector<std::string> warnings;  ///< what has changed, and why
+};
+
 /// What a job of the calibration node says.
 struct JobReading {
-  std::string job;            ///< "calibrate", "discover"
+  std::string job;            ///< "calibrate", "discover", "health/test"
   bool runs = false;          ///< false: it has ended
   std::string stage, best;    ///< of one that runs
   double share = 0.0;         ///< 0 to 1

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kWindow = 1;   // of 10 s, in which the twin warns
 constexpr double kSilent = 5.0;      // [s] of wall time; a gap comes once a second
 const char* const kTwin = ": twin";  // ends the name of its status
-const char* const kJobs[] = {"calibrate", "discover"};
+const char* const kJobs[] = {"calibrate", "discover", "health/test"};
 
 QTableWidgetItem* cell_of(double floors) {
   const bool told = std::isfinite(floors);
@@ -33,7 +33,8 @@ TwinPanel::TwinPanel(std::unique_ptr<RobotConnection> connection, const std::str
     : ConnectedPanel(std::move(connection), robot),
       state_(text_label("state")),
       twin_(text_label("twin")),
-      table_(new QTableWidget) {
+      table_(new QTableWidget),
+      health_(text_label("health")) {
   column()->addWidget(state_);
   column()->addWidget(twin_);
   table_->setObjectName("gaps");
@@ -49,6 +50,8 @@ TwinPanel::TwinPanel(std::unique_ptr<RobotConnection> connection, const std::str
   table_->verticalHeader()->setDefaultSectionSize(22);
   column()->addWidget(table_, 1);
   for (const char* job : kJobs) add_job(job);
+  health_->setToolTip("What the tests of the tendons tell (docs/health.md)");
+  column()->addWidget(health_);
 }
 
 void TwinPanel::add_job(const std::string& job) {
@@ -73,6 +76,7 @@ void TwinPanel::begin() {
   table_->clear();
   table_->setRowCount(0);
   warnings_.clear();
+  health_->clear();
   heard_gap_.reset();
 }
 
@@ -82,6 +86,7 @@ void TwinPanel::hear(const News& news, double now) {
     if (diagnosis.name.rfind(own, 0) == 0) warnings_[diagnosis.name] = diagnosis;
   }
   for (const JobReading& job : news.jobs) show_job(job);
+  if (news.health) show_health(*news.health);
   if (!news.gap) return;
   heard_gap_ = now;
   show_gaps(*news.gap);
@@ -125,6 +130,13 @@ void TwinPanel::show_gaps(const GapReading& reading) {
       table_->setItem(row, feed, cell_of(owner.gaps[static_cast<std::size_t>(feed)]));
     }
   }
+}
+
+void TwinPanel::show_health(const HealthReading& reading) {
+  std::vector<std::string> lines = reading.warnings;
+  lines.insert(lines.begin(), reading.headline);
+  show_text(health_, joined(lines, "\n"),
+            colour_of(reading.warnings.empty() ? Level::kOk : Level::kWarning));
 }
 
 void TwinPanel::show_job(const JobReading& job) {

@@ -13,7 +13,7 @@
 namespace anthrob {
 
 /// Where robot and model part, by muscle or joint and by feed, in colours; and the jobs of the
-/// calibration node, with a button that cancels each.
+/// calibration node, with a button that cancels each; and the health of the tendons.
 class TwinPanel final : public ConnectedPanel {
  public:
   TwinPanel();  ///< over ROS, see ros/plugins.cpp
@@ -34,11 +34,13 @@ class TwinPanel final : public ConnectedPanel {
 
   void add_job(const std::string& job);
   void show_gaps(const GapReading& reading);
+  void show_health(const HealthReading& reading);
   void show_job(const JobReading& job);
 
   QLabel* state_;
   QLabel* twin_;
   QTableWidget* table_;
+  QLabel* health_;
   std::map<std::string, JobLine> jobs_;
   std::map<std::string, Diagnosis> warnings_;  ///< by name, those of the twin
   std::optional<double> heard_gap_;            ///< [s]

@@ -6,6 +6,9 @@
 #include <anthrob_msgs/DiscoverActionFeedback.h>
 #include <anthrob_msgs/DiscoverActionResult.h>
 #include <anthrob_msgs/Gap.h>
+#include <anthrob_msgs/Health.h>
+#include <anthrob_msgs/HealthTestActionFeedback.h>
+#include <anthrob_msgs/HealthTestActionResult.h>
 #include <anthrob_msgs/MomentArms.h>
 #include <anthrob_msgs/MuscleCommand.h>
 #include <anthrob_msgs/PlayerState.h>
@@ -97,6 +100,12 @@ void RosConnection::subscribe() {
       "calibrate");
   subscribe_job<anthrob_msgs::DiscoverActionFeedback, anthrob_msgs::DiscoverActionResult>(
       "discover");
+  subscribe_job<anthrob_msgs::HealthTestActionFeedback, anthrob_msgs::HealthTestActionResult>(
+      "health/test");
+  subscribers_.push_back(subscribe_bounded<anthrob_msgs::Health>(
+      nh_, "health", 1, [this](const anthrob_msgs::Health& message, const std::string&) {
+        news_.health = HealthReading{message.headline, message.warning};
+      }));
   arms_ = subscribe_bounded<anthrob_msgs::MomentArms>(
       nh_, "moment_arms", 1,
       [this](const anthrob_msgs::MomentArms& message, const std::string&) { hear_arms(message); });

@@ -24,6 +24,7 @@ struct FakeRobot {
   std::vector<MuscleGroup> antagonists;
   std::optional<PlayerReading> player;
   std::optional<GapReading> gap;
+  std::optional<HealthReading> health;
   std::vector<JobReading> jobs;
   std::vector<std::string> cancelled;
   int shouts = 0;
@@ -57,6 +58,7 @@ class FakeConnection final : public RobotConnection {
     news.antagonists = std::exchange(robot_->antagonists, {});
     news.player = robot_->player;
     news.gap = std::exchange(robot_->gap, std::nullopt);
+    news.health = std::exchange(robot_->health, std::nullopt);
     news.jobs = std::exchange(robot_->jobs, {});
     return news;
   }

@@ -106,5 +106,19 @@ TEST_F(TwinPanelTest, ShowsJobsAndCancelsThem) {
   EXPECT_FALSE(cancel->isEnabled());
 }
 
+TEST_F(TwinPanelTest, ShowsTheHealthOfTheTendons) {
+  EXPECT_EQ(text("health"), "");
+  robot_->health = HealthReading{"2 tendons: nothing has changed", {}};
+  QTest::qWait(150);
+  EXPECT_EQ(text("health"), "2 tendons: nothing has changed");
+  robot_->health = HealthReading{"2 tendons: 1 has changed, first flexor", {"flexor: it frays"}};
+  robot_->jobs = {{"health/test", true, "slow reversal", "", 0.5, 30.0}};
+  QTest::qWait(150);
+  EXPECT_EQ(text("health"), "2 tendons: 1 has changed, first flexor\nflexor: it frays");
+  EXPECT_EQ(text("health/test_text"), "slow reversal, 50 %, about 30 s left");
+  QTest::mouseClick(child<QPushButton>(panel_.get(), "health/test_cancel"), Qt::LeftButton);
+  EXPECT_EQ(robot_->cancelled, std::vector<std::string>{"health/test"});
+}
+
 }  // namespace
 }  // namespace anthrob
