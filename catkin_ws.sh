@@ -72,6 +72,7 @@ usage: ./catkin_ws.sh COMMAND [ARGUMENTS]
                     conventions: discovery on recordings of a rig that were taken by other conventions than ours
                     discovery: the blind test; with --slice K/N a part of it; also --list, --summary, --help
                     fuzz: give damaged files to every reader of files, with sanitizers
+                    health: tests of tendons on 60 days, in some of which something grows
                     real: run discovery on the data of real machines; --data FOLDER
                     rules: discovery with other numbers that judge, or without one of its rules
                     threads: run on several threads, with a sanitizer; --tbb FOLDER

@@ -26,6 +26,7 @@ import calibration  # noqa: E402
 import conventions  # noqa: E402
 import discovery  # noqa: E402
 import fuzz  # noqa: E402
+import health  # noqa: E402
 import real  # noqa: E402
 import rules  # noqa: E402
 import soak  # noqa: E402
@@ -442,6 +443,68 @@ json.dump({"verdict": "effects_found" if law else "no_missing_effect", "alternat
            "conclusion": {"most_remains": 0.9}}}, open(out + "/report.json", "w"))
 open("calls", "a").write("asked\\n")
 '''
+
+
+# A robot at rest.
+RESTING = '''#!/usr/bin/python3
+import os, sys
+out = sys.argv[sys.argv.index("--out") + 1]
+os.makedirs(out)
+tables = {"muscles": "t,brachialis/force", "joints": "t,elbow/position", "spherical_joints": "t,s/w,s/x,s/y,s/z"}
+for table, head in tables.items():
+    with open(f"{out}/{table}.csv", "w") as file:
+        file.write(head + "\\n")
+        for i in range(200):
+            file.write(f"{i / 100}," + ("1,0,0,0" if "w" in head else "0") + "\\n")
+'''
+# Tells what grows in a tendon three days after it has begun, as friction.
+DOCTOR = '''#!/usr/bin/python3
+import json, os, sys
+if sys.argv[1] == "commands":
+    os.makedirs(sys.argv[sys.argv.index("--out") + 1])
+    sys.exit()
+folder = sys.argv[sys.argv.index("--history") + 1]
+robot = json.load(open(os.path.join(os.path.dirname(folder), "robot.yaml")))
+days = json.load(open("days")) if os.path.exists("days") else {}
+for effect in robot["effects"]:
+    days[effect["place"]] = days.get(effect["place"], 0) + 1
+json.dump(days, open("days", "w"))
+figure = {"quantity": "friction", "change": 3.0, "visible": 2.0, "limit": 6.0}
+told = [muscle for muscle, count in days.items() if count > 3] + (["nobody"] if os.path.exists("false") else [])
+os.makedirs(folder, exist_ok=True)
+json.dump({"findings": [{"muscle": m, "quantities": ["friction"], "text": m} for m in told],
+           "tendons": [{"muscle": m, "figures": [figure]} for m in days]}, open(folder + "/health.json", "w"))
+open("calls", "a").write("judged\\n")
+'''
+
+
+class HealthStudy(Study):
+    study_of = health
+
+    def programs(self):
+        self.program('model.yaml', json.dumps({'muscles': {m: {'rest_tendon_length': 0.2} for m in health.MUSCLES}}))
+        return {'REPLAY': self.program('resting', RESTING), 'HEALTH': self.program('doctor', DOCTOR), 'MODEL': 'model.yaml'}
+
+    def test_what_grows_is_told_by_the_right_figure_only(self):
+        self.study('--robots', '1')
+        self.assertEqual(self.calls(), health.DAYS)
+        result, = _study.load('out/health.json')
+        self.assertEqual(len(result['changes']), 3)
+        for change, one in zip(result['changes'], result['judged']):
+            self.assertEqual(one['day'], change['from'] + 4)
+            self.assertEqual(one['right'], change['law'] == 'wearing motor')
+            self.assertEqual((one['visible_sizes'], one['limits'], one['early']), (1.5, 0.5, False))
+        self.assertEqual(result['others'], [])
+        self.assertLess(result['moved_deg'], 0.1)  # of the potentiometer's noise
+        self.study('--robots', '1')
+        self.assertEqual(self.calls(), health.DAYS)
+        self.assertRegex(self.told(), r'told of tendons in which nothing changes: 0 in 480 days')
+
+    def test_what_is_not_there_is_counted(self):
+        open('false', 'w').close()
+        self.study('--robots', '1')
+        self.assertRegex(self.told(), r'nothing changes: 60 in 480 days')
+        self.assertIn('## Told, and not there', self.told())
 
 
 class RulesStudy(Study):
