@@ -106,24 +106,31 @@ bool is_of_joints(const RobotModel& robot, const Table& table) {
   });
 }
 
-std::vector<MovedTable> correct_clock_offsets(const RobotModel& robot, Description& description) {
-  std::vector<MovedTable> moved;
+void correct_clock_offsets(const RobotModel& robot, bool is_last, std::vector<MovedTable>& moved,
+                           Description& description) {
   const std::vector<Dataset*> recordings = recordings_of(description.question);
   for (std::size_t r = 0; r < recordings.size(); ++r) {
     if (holds_poses(robot, *recordings[r])) continue;
     for (const ClockOffset& offset :
          clock_offsets(robot, *recordings[r], description.question.options.admission)) {
       if (!offset.certain) {
+        if (!is_last) continue;
         description.remarks.push_back(line_about(recordings[r]->folder, offset) +
                                       "; too few movements to put it right");
         continue;
       }
       move_clock(*recordings[r], offset.table, offset.late, 0.0);
       description.corrected = true;
-      moved.push_back({r, offset});
+      const auto before = std::find_if(moved.begin(), moved.end(), [&](const MovedTable& other) {
+        return other.recording == r && other.offset.table == offset.table;
+      });
+      if (before == moved.end()) {
+        moved.push_back({r, offset});
+      } else {
+        before->offset.late += offset.late;
+      }
     }
   }
-  return moved;
 }
 
 void correct_clocks(const RobotModel& robot, const std::vector<std::optional<Dataset>>& simulated,

@@ -20,7 +20,10 @@ struct MovedTable {
 
 /// Moves tables of joints that were stamped by another clock than the muscles, by whole movements
 /// (clock_offsets). Of few movements it is only told.
-std::vector<MovedTable> correct_clock_offsets(const RobotModel& robot, Description& description);
+/// @param is_last whether nobody looks again
+/// @param moved gets what was moved; of a table that was moved before, both together
+void correct_clock_offsets(const RobotModel& robot, bool is_last, std::vector<MovedTable>& moved,
+                           Description& description);
 
 /// The same by what the given model does: what is left of these offsets, and clocks that drift.
 /// Reports both.

@@ -34,13 +34,13 @@ Description describe(const Evaluator& evaluator, Description description) {
   const RobotModel& robot = *evaluator.model();
   correct_columns(robot, description);
   correct_holds(robot, description);
-  std::vector<MovedTable> moved = correct_clock_offsets(robot, description);
+  std::vector<MovedTable> moved;
+  correct_clock_offsets(robot, false, moved, description);
   auto simulated =
       replays(evaluator, recordings_of(description.question), description.question.feed);
   correct_columns_by_model(robot, simulated, description);
   // A joint in other units may have seemed to rest.
-  const std::vector<MovedTable> later = correct_clock_offsets(robot, description);
-  moved.insert(moved.end(), later.begin(), later.end());
+  correct_clock_offsets(robot, true, moved, description);
   correct_controller_stamps(robot, evaluator.description().config(), description);
   // Under the model's law, motors come earlier or later than under the robot's.
   if (follows_another_law(description.measurement)) {

@@ -80,7 +80,8 @@ void correct_controller_stamps(const RobotModel& robot, const ConfigNode& config
     if (!algebra.is_known()) return;
     const auto shift = algebra.stamp_shift();
     if (const auto law = other_law(algebra, shift ? shift : rest)) {
-      if (is_other_law || !go_on_by_other_law(robot, config, *law, description)) return;
+      if (is_other_law) break;
+      if (!go_on_by_other_law(robot, config, *law, description)) return;
       is_other_law = true;
       continue;
     }
