@@ -12,13 +12,18 @@ namespace anthrob {
 
 namespace {
 
-constexpr double kPatience = 30.0;       // [s] of wall time until a robot appears
-constexpr double kFresh = 0.1;           // [s] older measurements do not count
-constexpr double kSilence = 0.5;         // [s] of wall time after which the test ends
-constexpr double kCommandPeriod = 0.02;  // [s]
-constexpr int kAwayPeriods = 5;          // 25 ms: noise of a sensor is no motion
-constexpr double kRestSpeed = 0.1;       // [rad/s, m/s] of a joint at rest
-constexpr double kRestTurn = 0.09;       // [rad, 0.1 m] 5 degrees from rest, at most
+constexpr double kPatience = 30.0;        // [s] of wall time until a robot appears
+constexpr double kFresh = 0.1;            // [s] older measurements do not count
+constexpr double kSilence = 0.5;          // [s] after which the test ends
+constexpr double kLetGo = 0.5;            // [s] in which the tendons are let out again and again
+constexpr double kEchoTime = 0.5;         // [s] until a reference that was sent is followed
+constexpr double kEchoOff = 0.01;         // [rad] that a unit's arithmetic may add
+constexpr int kUnheardPeriods = 60;       // 0.3 s
+constexpr double kProgressPeriod = 0.25;  // [s] a reader may be slow
+constexpr double kCommandPeriod = 0.02;   // [s]
+constexpr int kAwayPeriods = 5;           // 25 ms: noise of a sensor is no motion
+constexpr double kRestSpeed = 0.1;        // [rad/s, m/s] of a joint at rest
+constexpr double kRestTurn = 0.09;        // [rad, 0.1 m] 5 degrees from rest, at most
 
 /// Adds a row of numbers to a table; messages of one kind have the same names.
 void add_row(Table& table, const ros::Time& stamp, const std::vector<std::string>& names,
@@ -43,7 +48,10 @@ void add_row(Table& table, const ros::Time& stamp, const std::vector<std::string
 
 HealthRun::HealthRun(ros::NodeHandle nh, std::shared_ptr<const RobotModel> model,
                      const RobotLink::Options& link, const health::HealthOptions& options)
-    : model_(std::move(model)), options_(options), link_(nh, model_, link) {
+    : model_(std::move(model)),
+      options_(options),
+      lock_step_(link.lock_step),
+      link_(nh, model_, link) {
   recording_.meta.robot = model_->name;
   recording_.meta.start = "first";
   recording_.tables.reserve(4);
@@ -51,6 +59,11 @@ HealthRun::HealthRun(ros::NodeHandle nh, std::shared_ptr<const RobotModel> model
     recording_.table(name);
   }
   link_.on_muscles = [this](const anthrob_msgs::MuscleStates& m) {
+    for (const auto* list :
+         {&m.position, &m.velocity, &m.current, &m.voltage, &m.force, &m.reference}) {
+      if (list->size() != m.name.size()) return;
+    }
+    for (std::size_t i = 0; i < m.name.size(); ++i) echoed_[m.name[i]] = m.reference[i];
     if (!begin_ || m.header.stamp < *begin_) return;
     std::vector<std::string> names;
     std::vector<double> values;
@@ -67,12 +80,14 @@ HealthRun::HealthRun(ros::NodeHandle nh, std::shared_ptr<const RobotModel> model
     add_row(recording_.table("muscles"), m.header.stamp, names, values);
   };
   link_.on_joints = [this](const sensor_msgs::JointState& m) {
+    if (m.position.size() != m.name.size()) return;
     if (!begin_ || m.header.stamp < *begin_) return;
     std::vector<std::string> names;
     for (const std::string& joint : m.name) names.push_back(joint + "/position");
     add_row(recording_.table("joints"), m.header.stamp, names, m.position);
   };
   link_.on_ball_joints = [this](const anthrob_msgs::SphericalJointStates& m) {
+    if (m.orientation.size() != m.name.size()) return;
     if (!begin_ || m.header.stamp < *begin_) return;
     std::vector<std::string> names;
     std::vector<double> values;
@@ -100,6 +115,7 @@ std::optional<Dataset> HealthRun::run() {
   tables.erase(std::remove_if(tables.begin(), tables.end(),
                               [](const Table& table) { return table.t.empty(); }),
                tables.end());
+  protocol_->note_posture(recording_);
   return recording_;
 }
 
@@ -156,11 +172,14 @@ bool HealthRun::follow_protocol() {
   sent_ = ros::Time();
   send(protocol_->references(0.0));
   std::string stage;
+  double told = -kProgressPeriod;
   while (link_.wait()) {
     const double time = (link_.now() - *begin_).toSec();
     if (time >= duration) return true;
     watch(time);
     send(protocol_->references(time));
+    if (time < told + kProgressPeriod) continue;
+    told = time;
     const std::string now = health::TestProtocol::words(protocol_->phase_at(time).kind);
     if (now != stage) tool::progress_lines::stage(stage = now);
     tool::progress_lines::share(time / duration, duration - time);
@@ -168,23 +187,75 @@ bool HealthRun::follow_protocol() {
   return false;
 }
 
-void HealthRun::watch(double time) {
-  std::optional<std::string> why;
-  if (const auto off = link_.take_disabled()) why = "the motor of " + *off + " was stopped";
-  if (link_.time_jumped()) why = "time jumped back";
-  const auto silent = link_.state().complaint(link_.now().toSec(), kSilence);
-  if (silent) why = *silent;
-  const bool moved_known = !why;
-  if (moved_known) {
-    const auto& q = link_.state().measurement().q;
-    const auto far = health::moved_too_far(*model_, posture_, q, options_.largest_turn);
-    away_ = far ? away_ + 1 : 0;
-    if (away_ >= kAwayPeriods) why = *far + " from where it was";
+std::optional<std::string> HealthRun::other_reference() {
+  const auto is_old = [&](const auto& one) {
+    return (link_.now() - one.first).toSec() > kEchoTime;
+  };
+  while (asked_.size() > 1 && is_old(asked_[1])) asked_.pop_front();
+  if (asked_.empty() || !is_old(asked_.front())) return {};
+  for (std::size_t i = 0; i < protocol_->muscles().size(); ++i) {
+    const std::string& name =
+        model_->muscles[static_cast<std::size_t>(protocol_->muscles()[i])].name;
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (const auto& [time, references] : asked_) {
+      low = std::min(low, references[i]), high = std::max(high, references[i]);
+    }
+    const double echo = echoed_.count(name) ? echoed_[name] : NAN;
+    if (echo >= low - kEchoOff && echo <= high + kEchoOff) continue;
+    return name + " follows the reference " + significant(echo, 3) + " rad, not " +
+           significant(high, 3) + ": another node commands it, or last_rejection in /diagnostics " +
+           "says why it refuses";
   }
-  if (!why) return;
+  return {};
+}
+
+std::optional<std::string> HealthRun::trouble() {
+  if (const auto off = link_.take_disabled()) return "the motor of " + *off + " was stopped";
+  if (const auto obstacle = link_.obstacle()) return *obstacle;
+  const RobotMeasurement& now = link_.state().measurement();
+  const auto far = health::moved_too_far(*model_, posture_, now.q, options_.largest_turn);
+  away_ = far ? away_ + 1 : 0;
+  if (away_ >= kAwayPeriods) return *far + " from where it was";
+  for (std::size_t i = 0; i < protocol_->muscles().size(); ++i) {
+    const auto m = static_cast<std::size_t>(protocol_->muscles()[i]);
+    const double most =
+        options_.share_of_level * protocol_->highest_tension()[i] + options_.beside_level;
+    const double force = now.muscles[m].force;
+    if (force <= most) continue;
+    return model_->muscles[m].name + " pulls with " + significant(force, 3) + " N, where at most " +
+           significant(protocol_->highest_tension()[i], 3) + " are asked for";
+  }
+  try {
+    reference_watch_.look(link_.state(), link_.now(), lock_step_);
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  const auto other = other_reference();
+  // Of two nodes that command in turn, each is followed for a while.
+  unheard_ = other ? unheard_ + 2 : std::max(0, unheard_ - 1);
+  if (unheard_ >= 2 * kUnheardPeriods) return other;
+  return {};
+}
+
+void HealthRun::watch(double time) {
+  const std::string ended = ": the test ended after " + significant(time, 3) + " s";
   // What is not measured gets no command: after its time-out the motors let go.
-  if (moved_known) send(protocol_->references(0.0));
-  throw std::runtime_error(*why + ": the test ended after " + significant(time, 3) + " s");
+  if (link_.time_jumped()) throw std::runtime_error("time jumped back" + ended);
+  if (const auto silent = link_.state().complaint(link_.now().toSec(), kSilence)) {
+    throw std::runtime_error(*silent + ended);
+  }
+  const auto why = trouble();
+  if (!why) return;
+  let_go();
+  throw std::runtime_error(*why + ended);
+}
+
+void HealthRun::let_go() {
+  const ros::Time begin = link_.now();
+  do {
+    sent_ = ros::Time();
+    send(protocol_->references(0.0));
+  } while (link_.wait() && (link_.now() - begin).toSec() < kLetGo);
 }
 
 void HealthRun::send(const std::vector<double>& references) {
@@ -199,6 +270,7 @@ void HealthRun::send(const std::vector<double>& references) {
     names.push_back(model_->muscles[m].name + "/reference");
   }
   sent_ = link_.send(command);
+  asked_.emplace_back(sent_, references);
   if (begin_) add_row(recording_.table("commands"), sent_, names, references);
 }
 

@@ -40,8 +40,8 @@ int main(int argc, char** argv) {
   judge->add_option("--time", time, "of the test, such as 2026-12-01T08:30:00Z (default: now)");
   return tool::run(app, argc, argv, [&]() -> int {
     const auto model = tool::load_model(app, model_file);
-    const health::TestProtocol protocol(model, Simulation(model).configuration(), {});
     if (commands->parsed()) {
+      const health::TestProtocol protocol(model, Simulation(model).configuration(), {});
       const Dataset data = protocol.commands();
       data.require_place(out);
       data.save(out);
@@ -51,6 +51,7 @@ int main(int argc, char** argv) {
     const double day = time.empty() ? today() : health::day_of(time);
     const Dataset recording = load_recording(in);
     tool::say(app, recording.remarks);
+    const health::TestProtocol protocol(model, health::posture_of(model, recording), {});
     const auto report =
         health::add_to_history(out, model->name, day, health::measure(protocol, recording), {});
     std::cout << report.headline << "\n";

@@ -1,6 +1,7 @@
 #include "health/block_fit.h"
 
 #include <Eigen/Cholesky>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
 namespace anthrob {
@@ -35,7 +36,7 @@ std::optional<Measured> BlockFit::number(
     const std::function<double(const Eigen::VectorXd&)>& of) const {
   const auto all = solved(-1);
   if (!all) return {};
-  Measured measured{of(*all), 0.0};
+  Measured measured{of(*all)};
   double squares = 0.0, count = 0.0;
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     if (!(blocks_[b].rows > 0.0)) continue;
@@ -45,6 +46,8 @@ std::optional<Measured> BlockFit::number(
   }
   if (count < 3.0 || !std::isfinite(measured.value) || !std::isfinite(squares)) return {};
   measured.sigma = std::sqrt(squares * (count - 1.0) / count);
+  const boost::math::students_t student(count - 1.0);
+  measured.half = boost::math::quantile(student, 0.975) * measured.sigma;
   return measured;
 }
 

@@ -11,6 +11,7 @@ namespace health {
 /// A number with its standard error.
 struct Measured {
   double value = 0.0, sigma = 0.0;
+  double half = 0.0;  ///< of the 95 % interval, by Student's t of the number of blocks
 };
 
 /// Linear least squares, whose errors are those of the jackknife over blocks of time: neighbouring

@@ -25,8 +25,8 @@ struct Phase {
 class TestProtocol {
  public:
   /// @param q posture at the beginning, size position_count
-  /// @throws BadInput if the model has no tendon with a motor under position control, or tensions
-  /// cannot balance in this posture
+  /// @throws BadInput if the model has no tendon with a force sensor and a motor under position
+  /// control, if something must hold the posture, or tensions cannot balance in it
   TestProtocol(const std::shared_ptr<const RobotModel>& model, const std::vector<double>& q,
                const HealthOptions& options);
 
@@ -45,10 +45,16 @@ class TestProtocol {
   /// by tested tendon: where zeros and stiffness are compared.
   const std::vector<double>& middle_tension() const { return middle_tension_; }
   const std::vector<double>& middle_winding() const { return middle_winding_; }
+  /// Tension that is asked for at most [N], by tested tendon.
+  const std::vector<double>& highest_tension() const { return highest_tension_; }
+  /// At the beginning, size position_count.
+  const std::vector<double>& posture() const { return posture_; }
   /// Moment arms [m] of the tested tendons, by generalised velocity.
   const std::vector<std::vector<double>>& moment_arms() const { return moment_arms_; }
-  /// The commands as a data set, every 5 ms, for a replay.
+  /// The commands as a data set, every 5 ms, for a replay; its meta has the posture.
   Dataset commands() const;
+  /// Notes the posture in the recording of a test, for posture_of().
+  void note_posture(Dataset& recording) const;
 
  private:
   struct Knot {
@@ -62,9 +68,15 @@ class TestProtocol {
   std::vector<int> muscles_;
   std::vector<Phase> phases_;
   std::vector<Knot> knots_;
-  std::vector<double> middle_tension_, middle_winding_;
+  std::vector<double> posture_;
+  std::vector<double> middle_tension_, middle_winding_, highest_tension_;
   std::vector<std::vector<double>> moment_arms_;
 };
+
+/// The posture in which a recorded test began: as noted in it, else the model's at rest.
+/// @throws BadInput if what is noted is no posture of the model
+std::vector<double> posture_of(const std::shared_ptr<const RobotModel>& model,
+                               const Dataset& recording);
 
 /// The first joint that has moved too far, as one line: "elbow: 2.4 degrees".
 /// @param from,now postures, size position_count

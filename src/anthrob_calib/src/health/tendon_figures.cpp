@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "anthrob_core/errors.h"
+#include "anthrob_core/text.h"
 #include "anthrob_recording/orientation_series.h"
 #include "anthrob_sim/actuator/dc_motor.h"
 #include "health/block_fit.h"
@@ -22,6 +23,14 @@ struct Instant {
   int block = 0;         ///< half of a phase
   int flank = 0;         ///< +1 tightening, -1 slackening
 };
+
+/// Whether anything was measured then.
+bool is_fresh(const Series& series, double time, double fresh) {
+  const auto next = std::lower_bound(series.t.begin(), series.t.end(), time);
+  const double after = next == series.t.end() ? HUGE_VAL : *next - time,
+               before = next == series.t.begin() ? HUGE_VAL : time - *std::prev(next);
+  return std::min(after, before) <= fresh;
+}
 
 /// Mean of the samples within half a width of a moment; between two samples: interpolated.
 double mean_around(const Series& series, double time, double width) {
@@ -51,20 +60,22 @@ class JointMotion {
                            : OrientationSeries{});
     }
   }
-  /// Path of a muscle that has become shorter since `from` [m].
-  double shortened(const std::vector<double>& arms, double from, double now) const {
+  /// Path of a muscle that is shorter than in a posture [m].
+  double shortened(const std::vector<double>& arms, const std::vector<double>& posture,
+                   double now) const {
     double sum = 0.0;
     for (std::size_t j = 0; j < positions_.size(); ++j) {
       const JointModel& joint = model_.skeleton->joints[j];
       const auto at = static_cast<std::size_t>(joint.velocity_offset);
+      const double* q = &posture[static_cast<std::size_t>(joint.position_offset)];
       if (joint.type != JointType::kBall) {
         if (!positions_[j].empty()) {
-          sum += arms[at] * (positions_[j].at(now) - positions_[j].at(from));
+          sum += arms[at] * (positions_[j].at(now) - q[0]);
         }
         continue;
       }
       if (balls_[j].empty()) continue;
-      const Quat turn = turned(balls_[j], from).conjugate() * turned(balls_[j], now);
+      const Quat turn = Quat(q[0], q[1], q[2], q[3]).conjugate() * turned(balls_[j], now);
       const double sign = turn.w() < 0.0 ? -2.0 : 2.0;
       sum += sign * (arms[at] * turn.x() + arms[at + 1] * turn.y() + arms[at + 2] * turn.z());
     }
@@ -134,14 +145,20 @@ class TendonTest {
       const double to = phase.end - (is_level ? options_.beside : 0.0);
       for (double time = from; time < to; time += 1.0 / options_.rate) {
         const double at = begin_ + time;
-        if (at > position_.t.back()) break;
+        const auto measured = [&](const Series& series) {
+          return series.empty() || is_fresh(series, at, options_.fresh);
+        };
+        if (!measured(position_) || !measured(force_) || !measured(current_) ||
+            !measured(voltage_)) {
+          continue;
+        }
         const auto mean = [&](const Series& series, double when) {
           return series.empty() ? 0.0 : mean_around(series, when, 1.0 / options_.rate);
         };
         Instant now;
         now.time = time;
         now.winding = muscle_.motor()->spindle_radius() * mean(position_, at) -
-                      motion_.shortened(protocol_.moment_arms()[tendon_], begin_, at);
+                      motion_.shortened(protocol_.moment_arms()[tendon_], protocol_.posture(), at);
         now.force = mean(force_, at);
         now.current = mean(current_, at);
         now.voltage = mean(voltage_, at) - back_emf(at);
@@ -180,9 +197,8 @@ class TendonTest {
       figures_.remarks.push_back(std::string(name_of(quantity)) + ": the recording does not tell");
       return;
     }
-    const double half = options_.interval * number->sigma;
     figures_.figures.push_back(
-        {quantity, number->value, number->value - half, number->value + half});
+        {quantity, number->value, number->value - number->half, number->value + number->half});
   }
 
   static std::optional<Measured> mean_force(const std::vector<Instant>& slack) {
@@ -210,7 +226,7 @@ class TendonTest {
         u -= (c[0] + c[1] * u + c[2] * u * u - tension) / (c[1] + 2.0 * c[2] * u);
         u = std::clamp(u, -2.0, 2.0);
       }
-      return u;
+      return std::abs(u) < 2.0 ? u : NAN;
     };
     const auto stiffness = fit.number(
         [&](const Eigen::VectorXd& c) { return (c[1] + 2.0 * c[2] * where(c)) / reach; });
@@ -268,6 +284,29 @@ class TendonTest {
   TendonFigures figures_;
 };
 
+/// @param begin of the test in the recording [s]
+void require_commands(const TestProtocol& protocol, const Dataset& recording, double begin) {
+  for (std::size_t i = 0; i < protocol.muscles().size(); ++i) {
+    const auto m = static_cast<std::size_t>(protocol.muscles()[i]);
+    const std::string& name = protocol.model().muscles[m].name;
+    const Series asked = recording.find_table("commands")->find(name + "/reference") == nullptr
+                             ? Series{}
+                             : recording.series(name + "/reference");
+    if (asked.empty()) {
+      throw BadInput(recording.folder + ": no references of " + name +
+                     "; expected the recording of a test");
+    }
+    for (std::size_t k = 0; k < asked.t.size(); ++k) {
+      const double wanted = protocol.references(asked.t[k] - begin)[i];
+      if (std::abs(asked.values[k] - wanted) <= protocol.options().off_reference) continue;
+      throw BadInput(recording.folder + ": " + significant(asked.t[k] - begin, 3) +
+                     " s after the " + "first command, the reference of " + name + " is " +
+                     significant(asked.values[k], 3) + " rad, not " + significant(wanted, 3) +
+                     "; expected the recording of a test by this model, from its first command on");
+    }
+  }
+}
+
 }  // namespace
 
 const char* name_of(Quantity quantity) {
@@ -293,6 +332,7 @@ std::vector<TendonFigures> measure(const TestProtocol& protocol, const Dataset& 
                    " s from the first command on; expected a whole test of " +
                    std::to_string(static_cast<int>(protocol.duration())) + " s");
   }
+  require_commands(protocol, recording, begin);
   const JointMotion motion(protocol.model(), recording);
   std::vector<TendonFigures> all;
   for (std::size_t i = 0; i < protocol.muscles().size(); ++i) {

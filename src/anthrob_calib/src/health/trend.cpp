@@ -13,6 +13,7 @@ constexpr std::size_t kLastTests = 3;    // whose median is the present
 constexpr std::size_t kTrendTests = 20;  // the last ones, that tell a slope
 constexpr double kSureSlope = 3.0;       // standard errors
 constexpr double kMedianToSigma = 1.4826;
+constexpr double kSigmasOfInterval = 2.0 * 1.96;  // of 95 %, from end to end
 
 double median_of_values(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -26,7 +27,7 @@ double median_of_values(std::vector<double> values) {
 double scatter_of(const History::Series& series, const HealthOptions& options) {
   std::vector<double> sizes, own;
   for (const Test& test : series) {
-    own.push_back((test.figure.high - test.figure.low) / (2.0 * options.interval));
+    own.push_back((test.figure.high - test.figure.low) / kSigmasOfInterval);
   }
   for (std::size_t i = 1; i < series.size(); ++i) {
     sizes.push_back(std::abs(series[i].figure.value - series[i - 1].figure.value));

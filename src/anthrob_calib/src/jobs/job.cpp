@@ -66,7 +66,8 @@ Job::Job(const JobCommand& command)
       log_(log_of(command)),
       before_(written()),
       log_begin_(begin_log(out_, log_, words_of(command))),
-      process_(words_of(command), log_, !command.commands_robot) {}
+      process_(words_of(command), log_, !command.commands_robot),
+      commands_robot_(command.commands_robot) {}
 
 Job::Times Job::written() const {
   Times times;
@@ -129,7 +130,8 @@ JobResult Job::result_of(const ProcessEnd& end) const {
   }
   result.headline = result.error;
   if (by_interrupt) {
-    result.headline = "interrupted; the same goal goes on from there";
+    result.headline = commands_robot_ ? "interrupted: the motors stop, and nothing is kept"
+                                      : "interrupted; the same goal goes on from there";
     if (told.headline) result.headline += "; " + *told.headline;
   }
   return result;

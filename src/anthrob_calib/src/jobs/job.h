@@ -51,6 +51,7 @@ class Job {
   std::uintmax_t log_begin_ = 0;  ///< of this job [bytes]
   ProgressReader reader_;
   ChildProcess process_;
+  bool commands_robot_ = false;
   bool interrupted_ = false;
 };
 

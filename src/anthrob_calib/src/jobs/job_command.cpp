@@ -166,7 +166,9 @@ JobCommand command_of(const HealthOrder& order) {
   require_whole("out", order.out);
   return {"anthrob_calib",
           "anthrob_health_test",
-          {"_model:=" + order.model, "_out:=" + order.out, "__ns:=" + order.robot},
+          // All of them: one of an earlier run may still be on the server.
+          {"_model:=" + order.model, "_out:=" + order.out, "_largest_turn:=2", "_lock_step:=false",
+           "__ns:=" + order.robot},
           order.out,
           true};
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -45,7 +46,7 @@ inline const Figure* figure_of(const std::vector<TendonFigures>& all, const std:
 inline double value_of(const std::vector<TendonFigures>& all, const std::string& muscle,
                        Quantity quantity) {
   const Figure* figure = figure_of(all, muscle, quantity);
-  return figure == nullptr ? 1e300 : figure->value;
+  return figure == nullptr ? NAN : figure->value;
 }
 
 }  // namespace health
