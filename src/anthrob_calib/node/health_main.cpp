@@ -1,5 +1,4 @@
 // Tests the tendons of a robot for a minute, and adds what it finds to the robot's history.
-#include <chrono>
 #include <filesystem>
 
 #include "anthrob_core/errors.h"
@@ -14,12 +13,6 @@ namespace {
 using namespace anthrob;
 
 constexpr double kDegree = M_PI / 180.0;
-
-double today() {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return static_cast<double>(std::chrono::duration_cast<std::chrono::seconds>(now).count()) /
-         86400.0;
-}
 
 int test(ros::NodeHandle& nh, ros::NodeHandle& settings) {
   const auto model = load_robot_model(required_model(settings));
@@ -42,7 +35,7 @@ int test(ros::NodeHandle& nh, ros::NodeHandle& settings) {
   const auto recording = run.run();
   if (!recording) return 130;
   recording->save(folder + "/last_test");
-  const auto report = health::add_to_history(folder, model->name, today(),
+  const auto report = health::add_to_history(folder, model->name, health::present_day(),
                                              health::measure(run.protocol(), *recording), options);
   ROS_INFO_STREAM(report.headline);
   for (const std::string& line : report.lines) ROS_WARN_STREAM(line);

@@ -1,21 +1,10 @@
 // The test of tendons without a robot: its commands, and what a recording of it says.
-#include <chrono>
 #include <iostream>
 
 #include "anthrob_recording/bag.h"
 #include "anthrob_sim/simulation.h"
 #include "anthrob_sim/tool.h"
 #include "health/health_report.h"
-
-namespace {
-
-double today() {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return static_cast<double>(std::chrono::duration_cast<std::chrono::seconds>(now).count()) /
-         86400.0;
-}
-
-}  // namespace
 
 int main(int argc, char** argv) {
   using namespace anthrob;
@@ -48,7 +37,7 @@ int main(int argc, char** argv) {
       std::cout << "wrote " << out << ": " << protocol.duration() << " s\n";
       return tool::kDone;
     }
-    const double day = time.empty() ? today() : health::day_of(time);
+    const double day = time.empty() ? health::present_day() : health::day_of(time);
     const Dataset recording = load_recording(in);
     tool::say(app, recording.remarks);
     const health::TestProtocol protocol(model, health::posture_of(model, recording), {});

@@ -47,6 +47,10 @@ double number_in(const std::string& cell) {
 
 }  // namespace
 
+double present_day() {
+  return static_cast<double>(std::time(nullptr)) / kDay;
+}
+
 std::string time_of_day(double day) {
   const auto seconds = static_cast<std::time_t>(std::llround(kDay * day));
   std::tm parts{};

@@ -43,6 +43,8 @@ class History {
   double last_day_ = 0.0;
 };
 
+/// By this computer's clock.
+double present_day();
 /// "2026-12-01T08:30:00Z"
 std::string time_of_day(double day);
 /// Also a date alone. @throws BadInput

@@ -20,7 +20,7 @@ struct Instant {
   double time = 0.0;  ///< since the beginning of the test [s]
   double winding = 0.0, force = 0.0, current = 0.0;
   double voltage = 0.0;  ///< less the back EMF
-  int block = 0;         ///< half of a phase
+  int block = 0;         ///< of its error
   int flank = 0;         ///< +1 tightening, -1 slackening
 };
 
